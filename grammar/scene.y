@@ -1,0 +1,228 @@
+/* The grammar of both scene formats.
+ *
+ * Things start at `input`: the first token says which format follows.  Actions call one
+ * constructor or append to a list; everything else (names, types, ranges) is for later stages.
+ * `error` recovers at member, statement and block end only. */
+
+%require "3.8"
+%language "C"
+%define api.pure full
+%define api.prefix {scene_}
+%define api.token.prefix {TOKEN_}
+%define api.location.type {struct span}
+%define parse.error custom
+%define parse.lac full
+%locations
+%expect 0
+%param {struct parser *p}
+
+%code requires {
+#include "syntax/parser.h"
+}
+
+%union {
+    struct str text;
+    struct ast_node *node;
+    struct ast_list list;
+    struct xml_content content;
+}
+
+%code provides {
+/* The next token of the text, whichever scanner it comes from (syntax/tokens.c). */
+int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p);
+
+/* The two scanners, grammar/native.l and grammar/xml.l. */
+#define NATIVE_DECL int native_scan(SCENE_STYPE *value, struct span *span, void *yyscanner)
+#define XML_DECL int xml_scan(SCENE_STYPE *value, struct span *span, void *yyscanner)
+NATIVE_DECL;
+XML_DECL;
+}
+
+%code top {
+#include "config.h"
+}
+
+%code {
+#define YYMAXDEPTH 4096 /* bounds the depth of the tree, hence later recursion */
+#define YYLLOC_DEFAULT(now, rhs, n)                                                                \
+    ((now) = (n) ? span_join(YYRHSLOC(rhs, 1), YYRHSLOC(rhs, n))                                   \
+                 : (struct span){YYRHSLOC(rhs, 0).end, YYRHSLOC(rhs, 0).end})
+
+static void scene_error(const struct span *span, struct parser *p, const char *message);
+}
+
+%token END 0            "end of file"
+%token START_NATIVE     "native text"
+%token START_XML        "XML text"
+%token START_VALUE      "value"
+
+/* Native */
+%token <text> NAME "name"
+%token <text> NUMBER "number" DEGREES "angle" RADIANS "angle in radians"
+%token <text> STRING "string"
+%token <text> COLOUR "colour"
+%token WRT "'wrt'" MODEL "'model'" LET "'let'" PARAM "'param'"
+%token <text> MATERIAL "'material'" TEXTURE "'texture'"
+%token TRUE "'true'" FALSE "'false'"
+%token RESERVED "reserved word" /* for the statements of later versions */
+%token LBRACE "'{'" RBRACE "'}'" LPAREN "'('" RPAREN "')'" LBRACKET "'['" RBRACKET "']'"
+%token COLON "':'" COMMA "','" SEMICOLON "';'" EQUALS "'='" MINUS "'-'"
+
+/* XML; the scanner's side keeps tags balanced (syntax/balance.c) */
+%token <text> XML_OPEN "opening tag" XML_ATTRIBUTE "attribute" XML_VALUE "quoted value"
+%token <text> XML_TEXT "text" XML_CLOSE "closing tag"
+%token XML_EQUALS "'=' of an attribute" XML_TAG_END "'>'" XML_EMPTY_END "'/>'"
+
+%nterm <list> statements members values components attributes
+%nterm <list> block
+%nterm <node> statement member property value expression element attribute
+%nterm <text> property_name
+%nterm <content> content
+
+%%
+
+input:
+  START_NATIVE version statements END { p->ast->statements = ast_concat(p->version, $statements).first; }
+| START_XML element END               { p->ast->statements = $element; }
+| START_XML error END                 { p->ast->statements = NULL; }
+| START_VALUE value END               { p->ast->statements = $value; }
+;
+
+/* ---- Native ---- */
+
+version:
+  %empty          { parser_missing_version(p); }
+| WRT NUMBER[n]   { parser_version(p, @$, @n, $n); }
+;
+
+statements:
+  %empty                      { $$ = (struct ast_list){0}; }
+| statements[list] statement  { $$ = ast_append($list, $statement); }
+| statements[list] SEMICOLON  { $$ = $list; }
+| statements[list] error      { $$ = ast_append($list, ast_node(p->ast, AST_ERROR, @error)); }
+;
+
+statement:
+  MODEL NAME                         { $$ = ast_named(p->ast, AST_MODEL, @$, $NAME, @NAME); }
+| LET NAME EQUALS value              { $$ = ast_with(ast_named(p->ast, AST_LET, @$, $NAME, @NAME), $value); }
+| PARAM NAME EQUALS value            { $$ = ast_with(ast_named(p->ast, AST_PARAM, @$, $NAME, @NAME), $value); }
+| MATERIAL NAME EQUALS value         { $$ = ast_with(ast_named(p->ast, AST_MATERIAL, @$, $NAME, @NAME), $value); }
+| TEXTURE NAME EQUALS value          { $$ = ast_with(ast_named(p->ast, AST_TEXTURE, @$, $NAME, @NAME), $value); }
+| NAME block                         { $$ = parser_block(p, @$, $NAME, @NAME, (struct str){0}, $block); }
+| NAME[kind] NAME[label] block       { $$ = parser_block(p, @$, $kind, @kind, $label, $block); }
+;
+
+block:
+  LBRACE members RBRACE        { $$ = $members; }
+| LBRACE members error RBRACE  { $$ = $members; }
+;
+
+members:
+  %empty                    { $$ = (struct ast_list){0}; }
+| members[list] member      { $$ = ast_append($list, $member); }
+| members[list] COMMA       { $$ = $list; }
+| members[list] SEMICOLON   { $$ = $list; }
+| members[list] error member { $$ = ast_append($list, $member); }
+;
+
+member:
+  property
+| statement
+;
+
+property:
+  property_name COLON value
+    { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name), $value); }
+| property_name COLON error
+    { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name),
+                    ast_node(p->ast, AST_ERROR, @error)); }
+;
+
+property_name: NAME | MATERIAL | TEXTURE;
+
+value:
+  expression
+| NAME block  { $$ = ast_holding(ast_named(p->ast, AST_CONSTRUCT, @$, $NAME, @NAME), $block); }
+;
+
+expression:
+  NUMBER       { $$ = parser_number(p, AST_NUMBER, @$, $1); }
+| DEGREES      { $$ = parser_number(p, AST_ANGLE, @$, $1); }
+| RADIANS      { $$ = parser_number(p, AST_ANGLE, @$, $1); $$->unit = AST_RADIANS; }
+| STRING       { $$ = ast_text(p->ast, AST_STRING, @$, $1); }
+| COLOUR       { $$ = parser_colour(p, @$, $1); }
+| TRUE         { $$ = ast_node(p->ast, AST_BOOL, @$); $$->boolean = true; }
+| FALSE        { $$ = ast_node(p->ast, AST_BOOL, @$); }
+| NAME         { $$ = ast_named(p->ast, AST_NAME, @$, $1, @1); }
+| MINUS expression                    { $$ = ast_with(ast_node(p->ast, AST_NEGATE, @$), $2); }
+| LPAREN expression RPAREN            { $$ = $2; }
+| LPAREN components[list] COMMA expression[last] RPAREN
+    { $$ = ast_holding(ast_node(p->ast, AST_VECTOR, @$), ast_append($list, $last)); }
+| LPAREN error RPAREN                 { $$ = ast_node(p->ast, AST_ERROR, @$); }
+| LBRACKET values RBRACKET            { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
+| LBRACKET values COMMA RBRACKET      { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
+| LBRACKET RBRACKET                   { $$ = ast_node(p->ast, AST_LIST, @$); }
+| LBRACKET error RBRACKET             { $$ = ast_node(p->ast, AST_ERROR, @$); }
+;
+
+components:
+  expression                             { $$ = ast_append((struct ast_list){0}, $1); }
+| components[list] COMMA expression      { $$ = ast_append($list, $3); }
+;
+
+values:
+  value                                  { $$ = ast_append((struct ast_list){0}, $1); }
+| values[list] COMMA value               { $$ = ast_append($list, $3); }
+;
+
+/* ---- XML ---- */
+
+element:
+  XML_OPEN attributes XML_EMPTY_END
+    { $$ = xml_element(p, @$, $XML_OPEN, @XML_OPEN, $attributes, (struct xml_content){0}); }
+| XML_OPEN attributes XML_TAG_END content XML_CLOSE
+    { $$ = xml_element(p, @$, $XML_OPEN, @XML_OPEN, $attributes, $content); }
+;
+
+attributes:
+  %empty                       { $$ = (struct ast_list){0}; }
+| attributes[list] attribute   { $$ = ast_append($list, $attribute); }
+| attributes[list] error       { $$ = $list; }
+;
+
+attribute:
+  XML_ATTRIBUTE[name] XML_EQUALS XML_VALUE[text]
+    { $$ = ast_with(ast_named(p->ast, AST_ATTRIBUTE, @$, $name, @name),
+                    ast_text(p->ast, AST_TEXT, @text, $text)); }
+;
+
+content:
+  %empty            { $$ = (struct xml_content){0}; }
+| content XML_TEXT  { $$ = xml_add_text(p, $1, @2, $2); }
+| content element   { $$ = $1; $$.children = ast_append($$.children, $2); }
+;
+
+%%
+
+static int yyreport_syntax_error(const yypcontext_t *context, struct parser *p)
+{
+    enum { MOST = 6 };
+    yysymbol_kind_t expected[MOST];
+    const char *names[MOST];
+    int n = yypcontext_expected_tokens(context, expected, MOST);
+    if (n == YYENOMEM)
+        return YYENOMEM;
+    for (int i = 0; i < n; i++)
+        names[i] = yysymbol_name(expected[i]);
+    yysymbol_kind_t found = yypcontext_token(context);
+    parser_syntax_error(p, *yypcontext_location(context), yysymbol_name(found),
+                        found == YYSYMBOL_YYEOF, names, (size_t)(n > 0 ? n : 0));
+    return 0;
+}
+
+/* Only called when the stack is at its limit. */
+static void scene_error(const struct span *span, struct parser *p, const char *message)
+{
+    (void)message;
+    parser_stop(p, DIAG_TOO_DEEP, *span, "nested too deeply, so the rest is not read");
+}

@@ -1,0 +1,209 @@
+#include "config.h"
+
+#include "accel/bvh.h"
+
+#include <string.h>
+
+/* Binned surface area heuristic (Wald, On fast construction of SAH-based bounding volume
+ * hierarchies, 2007), all three axes at once. */
+enum {
+    BINS = 16,
+    LEAF_LIMIT = 4,  /* larger runs are always split */
+    SAH_DEPTH = 60,  /* deeper down runs are halved: at most 30 levels more */
+};
+
+/* Cost of visiting a node over that of testing a primitive. */
+#define NODE_COST 1.0
+
+struct builder {
+    struct box *boxes;    /* by primitive */
+    struct vec3 *centers; /* of the boxes */
+    uint32_t *order;
+    struct bvh_node *nodes;
+    uint32_t node_count;
+};
+
+struct bin {
+    struct box box;
+    uint32_t n;
+};
+
+/* How a run is split: before bin `bin` of the axis. */
+struct split {
+    double cost; /* of both sides: area times primitives */
+    int axis, bin;
+};
+
+struct binning {
+    struct vec3 lo, scale; /* bin = (center - lo) scale */
+};
+
+/* A run whose centers differ too little to be told apart gets a scale of 0 on that axis. */
+static struct binning binning_of(struct box centers)
+{
+    struct binning b = { centers.lo, { 0, 0, 0 } };
+    struct vec3 d = vec3_sub(centers.hi, centers.lo);
+    double most = BINS * (1 - 0x1p-40);
+    b.scale.x = d.x > 0 && most / d.x <= DBL_MAX ? most / d.x : 0;
+    b.scale.y = d.y > 0 && most / d.y <= DBL_MAX ? most / d.y : 0;
+    b.scale.z = d.z > 0 && most / d.z <= DBL_MAX ? most / d.z : 0;
+    return b;
+}
+
+static int bin_of(const struct binning *b, struct vec3 center, int axis)
+{
+    double x = (vec3_at(center, axis) - vec3_at(b->lo, axis)) * vec3_at(b->scale, axis);
+    return x >= BINS - 1 ? BINS - 1 : x > 0 ? (int)x : 0;
+}
+
+static void fill_bins(const struct builder *w, const struct binning *b, uint32_t begin,
+                      uint32_t end, struct bin bins[3][BINS])
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < BINS; i++)
+            bins[axis][i] = (struct bin){ box_empty(), 0 };
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t prim = w->order[i];
+        for (int axis = 0; axis < 3; axis++) {
+            struct bin *bin = &bins[axis][bin_of(b, w->centers[prim], axis)];
+            bin->box = box_join(bin->box, w->boxes[prim]);
+            bin->n++;
+        }
+    }
+}
+
+/* Sweeps one axis from both ends. */
+static void best_of_axis(const struct bin bins[BINS], int axis, struct split *best)
+{
+    double above[BINS];
+    struct box box = box_empty();
+    uint32_t n = 0;
+    for (int i = BINS - 1; i > 0; i--) {
+        box = box_join(box, bins[i].box);
+        n += bins[i].n;
+        above[i] = n ? box_half_area(box) * n : INFINITY;
+    }
+    box = box_empty();
+    n = 0;
+    for (int i = 1; i < BINS; i++) {
+        box = box_join(box, bins[i - 1].box);
+        n += bins[i - 1].n;
+        double cost = n ? box_half_area(box) * n + above[i] : INFINITY;
+        if (cost < best->cost)
+            *best = (struct split){ cost, axis, i };
+    }
+}
+
+static uint32_t partition(struct builder *w, const struct binning *b, const struct split *s,
+                          uint32_t begin, uint32_t end)
+{
+    while (begin < end) {
+        uint32_t prim = w->order[begin];
+        if (bin_of(b, w->centers[prim], s->axis) < s->bin) {
+            begin++;
+        } else {
+            w->order[begin] = w->order[--end];
+            w->order[end] = prim;
+        }
+    }
+    return begin;
+}
+
+/* Where to split [begin, end), or `end` to leave it a leaf. */
+static uint32_t choose_split(struct builder *w, struct box box, uint32_t begin, uint32_t end,
+                             int depth)
+{
+    uint32_t n = end - begin, middle = begin + n / 2;
+    if (n == 1)
+        return end;
+    if (depth >= SAH_DEPTH)
+        return n <= LEAF_LIMIT ? end : middle;
+    struct box centers = box_empty();
+    for (uint32_t i = begin; i < end; i++)
+        centers = box_add(centers, w->centers[w->order[i]]);
+    struct binning binning = binning_of(centers);
+    struct bin bins[3][BINS];
+    fill_bins(w, &binning, begin, end, bins);
+    struct split best = { INFINITY, 0, 0 };
+    for (int axis = 0; axis < 3; axis++)
+        best_of_axis(bins[axis], axis, &best);
+    if (n <= LEAF_LIMIT && !(best.cost + NODE_COST * box_half_area(box) < n * box_half_area(box)))
+        return end;
+    return best.cost < INFINITY ? partition(w, &binning, &best, begin, end) : middle;
+}
+
+static struct box run_box(const struct builder *w, uint32_t begin, uint32_t end)
+{
+    struct box box = box_empty();
+    for (uint32_t i = begin; i < end; i++)
+        box = box_join(box, w->boxes[w->order[i]]);
+    return box;
+}
+
+static void set_child(struct bvh_node *node, int child, struct box box, uint32_t first,
+                      uint32_t count)
+{
+    double planes[2][3] = { { box.lo.x, box.lo.y, box.lo.z }, { box.hi.x, box.hi.y, box.hi.z } };
+    memcpy(node->plane[child], planes, sizeof planes);
+    node->first[child] = first;
+    node->count[child] = count;
+}
+
+/* Fills in one child of a node with the run [begin, end); recursion is at most BVH_DEPTH_LIMIT
+ * deep. */
+static void build_child(struct builder *w, uint32_t parent, int child, uint32_t begin, uint32_t end,
+                        int depth)
+{
+    struct box box = run_box(w, begin, end);
+    uint32_t middle = begin < end ? choose_split(w, box, begin, end, depth) : end;
+    if (middle == end) {
+        set_child(&w->nodes[parent], child, box, begin, end - begin);
+        return;
+    }
+    uint32_t node = w->node_count++;
+    set_child(&w->nodes[parent], child, box, node, 0);
+    build_child(w, node, 0, begin, middle, depth + 1);
+    build_child(w, node, 1, middle, end, depth + 1);
+}
+
+static void build_tree(struct accel *a)
+{
+    uint32_t n = (uint32_t)a->geometry->prims.n;
+    struct builder w = { .boxes = mem_alloc(n, sizeof *w.boxes),
+                         .centers = mem_alloc(n, sizeof *w.centers),
+                         .order = mem_alloc(n, sizeof *w.order),
+                         .nodes = mem_alloc_aligned(n + 1, sizeof *w.nodes),
+                         .node_count = 1 };
+    for (uint32_t i = 0; i < n; i++) {
+        w.order[i] = i;
+        w.boxes[i] = geometry_prim_bounds(a->geometry, i);
+        w.centers[i] = box_center(w.boxes[i]);
+    }
+    struct box all = run_box(&w, 0, n);
+    double low = vec3_largest(all.lo), high = vec3_largest(all.hi);
+    a->reach = low > high ? low : high;
+    uint32_t middle = n > 1 ? choose_split(&w, all, 0, n, 0) : n;
+    build_child(&w, 0, 0, 0, middle, 1);
+    set_child(&w.nodes[0], 1, box_empty(), 0, 0);
+    if (middle < n)
+        build_child(&w, 0, 1, middle, n, 1);
+    free(w.boxes);
+    free(w.centers);
+    a->nodes = w.nodes;
+    a->node_count = w.node_count;
+    a->order = w.order;
+}
+
+void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
+{
+    *a = (struct accel){ .geometry = geometry };
+    if (!brute_force && geometry->prims.n > 0)
+        build_tree(a);
+}
+
+void accel_free(struct accel *a)
+{
+    free(a->nodes);
+    free(a->order);
+    *a = (struct accel){ 0 };
+}

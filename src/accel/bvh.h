@@ -1,0 +1,40 @@
+/* Which primitive of a geometry a ray meets: by a tree of boxes, or by trying all of them, with the
+ * same outcome to the last bit.  Built once, then read only. */
+#ifndef WRT_ACCEL_BVH_H
+#define WRT_ACCEL_BVH_H
+
+#include "scene/geometry.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* An inner node holds the boxes of its two children, so that children are tested before they are
+ * fetched.  A child is a node, or a leaf: a run of `order`. */
+struct bvh_node {
+    double plane[2][2][3]; /* of child, lower or upper, axis */
+    uint32_t first[2];     /* node number, or start of the run */
+    uint32_t count[2];     /* 0: a node; else the length of the run */
+};
+
+struct accel {
+    const struct geometry *geometry; /* borrowed */
+    struct bvh_node *nodes;          /* root first; NULL: every primitive is tried */
+    uint32_t *order;                 /* primitive numbers, leaf by leaf */
+    uint32_t node_count;
+    double reach;                    /* largest |coordinate| of the geometry's bounds */
+};
+
+/* Deepest leaf below the root; bounds the stacks of tree walks. */
+enum { BVH_DEPTH_LIMIT = 96 };
+
+/* The geometry must not change while the accel is used. */
+void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force);
+void accel_free(struct accel *a);
+
+/* The nearest hit of the ray; *hit is filled in either case (hit_none when false). */
+bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit);
+
+/* Whether anything is hit within the ray's t_max; *occluder says what. */
+bool accel_any(const struct accel *a, const struct ray *ray, uint32_t *occluder);
+
+#endif

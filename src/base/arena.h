@@ -1,0 +1,30 @@
+/* Arena: allocations that live and die together, one arena per stage result. */
+#ifndef WRT_BASE_ARENA_H
+#define WRT_BASE_ARENA_H
+
+#include <stddef.h>
+
+struct arena_block;
+
+/* Zero-initialise; free with arena_free. */
+struct arena {
+    struct arena_block *blocks; /* newest first */
+    char *at, *end;             /* the free rest of the newest block */
+    size_t bytes;               /* handed out so far */
+};
+
+/* n bytes aligned for any type, not zeroed; never NULL (see mem.h). */
+void *arena_alloc(struct arena *a, size_t n);
+
+/* A zeroed array of n objects of `size` bytes; the product is checked. */
+void *arena_zalloc(struct arena *a, size_t n, size_t size);
+
+/* A NUL-terminated copy of the n bytes at p. */
+char *arena_copy(struct arena *a, const char *p, size_t n);
+
+/* printf into the arena. */
+char *arena_printf(struct arena *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+void arena_free(struct arena *a);
+
+#endif

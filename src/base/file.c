@@ -1,0 +1,168 @@
+#include "config.h"
+
+#include "base/file.h"
+
+#include "base/mem.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char TOO_LARGE[] = "the file is too large (limit 2 GB)";
+
+/* Grows the buffer until the descriptor is at its end. */
+static const char *read_all(int fd, size_t expected, char **data, size_t *n)
+{
+    enum { ROOM = 2, FIRST = 64 * 1024 };
+    size_t capacity = expected ? expected + 1 : FIRST, have = 0;
+    char *buffer = mem_alloc(capacity + ROOM, 1);
+    for (;;) {
+        if (have == capacity) {
+            capacity *= 2;
+            buffer = mem_realloc(buffer, capacity + ROOM, 1);
+        }
+        ssize_t got = read(fd, buffer + have, capacity - have);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0 || have + (size_t)got > FILE_SIZE_LIMIT) {
+            const char *reason = got < 0 ? strerror(errno) : TOO_LARGE;
+            free(buffer);
+            return reason;
+        }
+        if (got == 0)
+            break;
+        have += (size_t)got;
+    }
+    *data = buffer;
+    *n = have;
+    return NULL;
+}
+
+const char *file_read(const char *path, char **data, size_t *n)
+{
+    if (strcmp(path, "-") == 0)
+        return read_all(STDIN_FILENO, 0, data, n);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return strerror(errno);
+    struct stat st;
+    const char *reason = NULL;
+    if (fstat(fd, &st) != 0)
+        reason = strerror(errno);
+    else if (S_ISDIR(st.st_mode))
+        reason = strerror(EISDIR);
+    else if (S_ISREG(st.st_mode) && (uint64_t)st.st_size > FILE_SIZE_LIMIT)
+        reason = TOO_LARGE;
+    else
+        reason = read_all(fd, S_ISREG(st.st_mode) ? (size_t)st.st_size : 0, data, n);
+    close(fd);
+    return reason;
+}
+
+bool file_readable(const char *path, const char **reason)
+{
+    struct stat st;
+    *reason = NULL;
+    if (stat(path, &st) != 0 || access(path, R_OK) != 0)
+        *reason = strerror(errno);
+    else if (S_ISDIR(st.st_mode))
+        *reason = strerror(EISDIR);
+    return *reason == NULL;
+}
+
+static const char *write_all(int fd, const char *p, size_t n)
+{
+    while (n) {
+        ssize_t put = write(fd, p, n);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put < 0)
+            return strerror(errno);
+        p += put;
+        n -= (size_t)put;
+    }
+    return NULL;
+}
+
+static const char *write_directly(const char *path, const void *data, size_t n)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return strerror(errno);
+    const char *reason = write_all(fd, data, n);
+    if (close(fd) != 0 && !reason)
+        reason = strerror(errno);
+    return reason;
+}
+
+/* Mode of the new file: the old one's, or what the umask leaves of rw-rw-rw-. */
+static mode_t target_mode(const struct stat *old)
+{
+    if (old)
+        return old->st_mode & 0777;
+    mode_t mask = umask(0);
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+static const char *write_renamed(const char *path, const struct stat *old, const void *data,
+                                 size_t n)
+{
+    static const char suffix[] = ".XXXXXX";
+    size_t length = strlen(path);
+    char *temporary = mem_alloc(length + sizeof suffix, 1);
+    memcpy(temporary, path, length);
+    memcpy(temporary + length, suffix, sizeof suffix);
+    int fd = mkstemp(temporary);
+    const char *reason = fd < 0 ? strerror(errno) : write_all(fd, data, n);
+    if (fd >= 0) {
+        if (!reason && fchmod(fd, target_mode(old)) != 0)
+            reason = strerror(errno);
+        if (close(fd) != 0 && !reason)
+            reason = strerror(errno);
+        if (!reason && rename(temporary, path) != 0)
+            reason = strerror(errno);
+        if (reason)
+            unlink(temporary);
+    }
+    free(temporary);
+    return reason;
+}
+
+const char *file_write(const char *path, const void *data, size_t n)
+{
+    if (strcmp(path, "-") == 0)
+        return write_all(STDOUT_FILENO, data, n);
+    struct stat st;
+    bool exists = stat(path, &st) == 0;
+    if (exists && !S_ISREG(st.st_mode))
+        return write_directly(path, data, n);
+    char *real = exists ? realpath(path, NULL) : NULL; /* a symbolic link stays one */
+    const char *reason = write_renamed(real ? real : path, exists ? &st : NULL, data, n);
+    free(real);
+    return reason;
+}
+
+char *file_resolve(const char *beside, const char *name, size_t name_length)
+{
+    const char *slash = strrchr(beside, '/');
+    size_t folder = name_length && name[0] == '/' ? 0 : slash ? (size_t)(slash + 1 - beside) : 0;
+    char *path = mem_alloc(folder + name_length + 1, 1);
+    memcpy(path, beside, folder);
+    memcpy(path + folder, name, name_length);
+    path[folder + name_length] = 0;
+    return path;
+}
+
+bool file_identify(const char *path, struct file_id *id)
+{
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return false;
+    *id = (struct file_id){(uint64_t)st.st_dev, (uint64_t)st.st_ino};
+    return true;
+}

@@ -1,0 +1,35 @@
+/* Whole files in and out. */
+#ifndef WRT_BASE_FILE_H
+#define WRT_BASE_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Files larger than this are refused: offsets within all texts of a run are 32-bit. */
+#define FILE_SIZE_LIMIT ((size_t)2000 * 1000 * 1000)
+
+/* Reads a file, or standard input for "-".  On success *data (caller frees) holds *n bytes and
+ * room for two more.  On failure returns a reason such as "No such file or directory": a string
+ * that needs no freeing. */
+const char *file_read(const char *path, char **data, size_t *n);
+
+/* True when path names a regular file that can be read; *reason says why not. */
+bool file_readable(const char *path, const char **reason);
+
+/* Writes n bytes so that path holds either its old content or all of the new: a temporary file
+ * beside it is renamed.  A path that exists and is no regular file (a device, a pipe), and "-" for
+ * standard output, is written directly.  Returns NULL or a reason. */
+const char *file_write(const char *path, const void *data, size_t n);
+
+/* The path of `name` as spelt in a file at `beside`: relative names start at its folder; "-" and
+ * plain names at the current one.  Caller frees. */
+char *file_resolve(const char *beside, const char *name, size_t name_length);
+
+/* Identity of an existing file, to load each one once; false when it cannot be told. */
+struct file_id {
+    uint64_t device, inode;
+};
+bool file_identify(const char *path, struct file_id *id);
+
+#endif

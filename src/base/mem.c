@@ -1,0 +1,58 @@
+#include "config.h"
+
+#include "base/mem.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void mem_exhausted(size_t wanted)
+{
+    fprintf(stderr, "wrt: error: out of memory (%zu bytes wanted)\n", wanted);
+    exit(3);
+}
+
+static size_t checked_size(size_t n, size_t size)
+{
+    size_t bytes;
+    if (!mem_mul(n, size, &bytes) || bytes > PTRDIFF_MAX)
+        mem_exhausted(SIZE_MAX);
+    return bytes ? bytes : 1;
+}
+
+void *mem_alloc(size_t n, size_t size)
+{
+    size_t bytes = checked_size(n, size);
+    void *p = malloc(bytes);
+    if (!p)
+        mem_exhausted(bytes);
+    return p;
+}
+
+void *mem_zalloc(size_t n, size_t size)
+{
+    void *p = calloc(1, checked_size(n, size));
+    if (!p)
+        mem_exhausted(n * size);
+    return p;
+}
+
+void *mem_realloc(void *old, size_t n, size_t size)
+{
+    size_t bytes = checked_size(n, size);
+    void *p = realloc(old, bytes);
+    if (!p)
+        mem_exhausted(bytes);
+    return p;
+}
+
+void *mem_alloc_aligned(size_t n, size_t size)
+{
+    enum { LINE = 64 };
+    size_t bytes = checked_size(n, size);
+    bytes = (bytes + LINE - 1) / LINE * LINE;
+    void *p = aligned_alloc(LINE, bytes);
+    if (!p)
+        mem_exhausted(bytes);
+    return p;
+}

@@ -1,0 +1,28 @@
+/* Checked allocation.
+ *
+ * Running out of memory ends the process: no caller could do better, and no output file is open
+ * then (pictures are encoded in memory before their file is created).  This is the one place
+ * outside src/cmd that prints and exits; exit status 3. */
+#ifndef WRT_BASE_MEM_H
+#define WRT_BASE_MEM_H
+
+#include <stddef.h>
+
+/* n * size bytes, overflow checked; zeroed by mem_zalloc.  Never NULL.  Free with free(). */
+void *mem_alloc(size_t n, size_t size);
+void *mem_zalloc(size_t n, size_t size);
+void *mem_realloc(void *p, size_t n, size_t size);
+
+/* As mem_alloc for a multiple of 64 bytes, aligned to a cache line. */
+void *mem_alloc_aligned(size_t n, size_t size);
+
+/* Says on stderr that `wanted` bytes could not be had, and exits with status 3. */
+_Noreturn void mem_exhausted(size_t wanted);
+
+/* *out = a * b; false when that overflows. */
+static inline int mem_mul(size_t a, size_t b, size_t *out)
+{
+    return !__builtin_mul_overflow(a, b, out);
+}
+
+#endif

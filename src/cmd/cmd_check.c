@@ -1,0 +1,49 @@
+#include "config.h"
+
+#include "cmd/commands.h"
+#include "cmd/frontend.h"
+#include "cmd/stats.h"
+
+#include <string.h>
+
+static int check_scene(const char *path, const struct options *o)
+{
+    struct frontend f;
+    frontend_load(&f, path, o);
+    int status = frontend_report(&f, o, o->verbose ? DIAG_NOTE : DIAG_ERROR);
+    struct check_stats stats = {
+        .scene = path,
+        .parse_s = f.seconds,
+        .surfaces = f.desc.surfaces.n,
+        .lights = f.desc.lights.n,
+        .materials = f.desc.materials.n,
+        .textures = f.desc.textures.n,
+        .errors = f.diag.errors,
+        .warnings = f.diag.warnings,
+    };
+    stats_print_check(&stats, o);
+    frontend_free(&f);
+    return status;
+}
+
+/* Wrong input tells more than a missing file. */
+static int worse(int a, int b)
+{
+    return a == DIAG_EXIT_INPUT || b == DIAG_EXIT_INPUT ? DIAG_EXIT_INPUT : a > b ? a : b;
+}
+
+int command_check(int argc, char **argv)
+{
+    struct options o;
+    enum options_result result = options_read(argc, argv, FOR_CHECK, &o);
+    int status = result == OPTIONS_HELP      ? command_help(FOR_CHECK)
+                 : result == OPTIONS_VERSION ? command_version()
+                 : result == OPTIONS_WRONG   ? EXIT_USAGE
+                 : o.scenes.n                ? 0
+                                             : usage_error("check: no scene given");
+    if (result == OPTIONS_RUN)
+        for (size_t i = 0; i < o.scenes.n; i++)
+            status = worse(status, check_scene(o.scenes.at[i], &o));
+    options_free(&o);
+    return status;
+}

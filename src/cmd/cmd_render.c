@@ -1,0 +1,225 @@
+#include "config.h"
+
+#include "cmd/commands.h"
+#include "cmd/frontend.h"
+#include "cmd/progress.h"
+#include "cmd/stats.h"
+
+#include "base/file.h"
+#include "base/thread.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* One run of the command. */
+struct run {
+    const struct options *options;
+    struct frontend frontend;
+    struct lowered lowered;
+    char *output; /* path of the picture */
+    enum picture_format format;
+    struct render_options render;
+    struct picture *picture;
+    struct run_stats stats;
+};
+
+/* The scene's name with the suffix of a picture, in the current folder. */
+static char *default_output(const char *scene)
+{
+    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
+    if (strcmp(name, "-") == 0)
+        name = "scene";
+    const char *dot = strrchr(name, '.');
+    size_t n = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    char *path = mem_alloc(n + sizeof ".png", 1);
+    memcpy(path, name, n);
+    memcpy(path + n, ".png", sizeof ".png");
+    return path;
+}
+
+/* Where the picture goes; told before any work is done.  0 or an exit status. */
+static int choose_output(struct run *r)
+{
+    const struct options *o = r->options;
+    r->output = o->output ? strcpy(mem_alloc(strlen(o->output) + 1, 1), o->output)
+                          : default_output(o->scenes.at[0]);
+    if (!picture_format_of(r->output, &r->format))
+        return usage_error("'%s' names no picture format; .png, .ppm and .pfm are written",
+                           r->output);
+    if (strcmp(r->output, "-") == 0 && (o->stats == STATS_JSON || o->format == DIAG_FORMAT_JSON))
+        return usage_error("the picture and JSON cannot both go to standard output");
+    return 0;
+}
+
+/* Reports a failure of the output; returns the exit status. */
+static int report_output(struct run *r, const char *reason)
+{
+    diag_free(&r->frontend.diag);
+    diag_init(&r->frontend.diag, &r->frontend.sources);
+    diag_report(&r->frontend.diag, DIAG_CANNOT_WRITE, (struct span){0}, "could not write '%s': %s",
+                r->output, reason);
+    return frontend_report(&r->frontend, r->options, DIAG_WARNING);
+}
+
+/* A long render should not end with "no such directory". */
+static const char *output_obstacle(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    size_t n = slash ? (size_t)(slash - path) : 0;
+    if (!slash || n == 0)
+        return NULL;
+    char *folder = mem_alloc(n + 1, 1);
+    memcpy(folder, path, n);
+    folder[n] = 0;
+    const char *reason = access(folder, F_OK) == 0 ? NULL : "the folder does not exist";
+    free(folder);
+    return reason;
+}
+
+/* Size and crop of the picture; 0 or an exit status. */
+static int choose_size(struct run *r)
+{
+    const struct options *o = r->options;
+    const struct camera *c = &r->lowered.scene.camera;
+    struct render_options *to = &r->render;
+    to->width = o->width ? o->width : c->width;
+    to->height = o->height ? o->height : c->height;
+    to->crop.x1 = to->width;
+    to->crop.y1 = to->height;
+    if (!o->cropped)
+        return 0;
+    if (o->crop[2] > to->width || o->crop[3] > to->height)
+        return usage_error("--crop reaches beyond the picture of %u x %u", to->width, to->height);
+    to->crop.x0 = o->crop[0];
+    to->crop.y0 = o->crop[1];
+    to->crop.x1 = o->crop[2];
+    to->crop.y1 = o->crop[3];
+    return 0;
+}
+
+static void choose_sampling(struct run *r)
+{
+    const struct options *o = r->options;
+    struct render_options *to = &r->render;
+    to->grid = o->grid;
+    to->jitter = o->jitter;
+    to->seed = o->seed;
+    to->depth = o->depth;
+    to->threads = o->threads;
+    to->show = o->show;
+    to->brute_force = o->brute_force;
+    to->no_skip = o->no_skip;
+}
+
+/* What OpenMesh finds in each mesh, for --verbose. */
+static void describe_meshes(const struct run *r)
+{
+    for (size_t i = 0; i < r->lowered.meshes.n; i++) {
+        const struct lower_mesh *m = &r->lowered.meshes.at[i];
+        struct mesh_report report;
+        const char *reason = openmesh_analyse(m->mesh->points.at, m->mesh->points.n,
+                                              m->mesh->faces.at, m->mesh->faces.n, &report);
+        if (reason)
+            fprintf(stderr, "mesh       %s: %s\n", m->path, reason);
+        else
+            fprintf(stderr,
+                    "mesh       %s: %zu vertices (%zu unused), %zu faces (%zu of no area, "
+                    "%zu not manifold), %s\n",
+                    m->path, m->mesh->points.n, report.unused_vertices, m->mesh->faces.n,
+                    report.degenerate_faces, report.non_manifold_faces,
+                    report.boundary_edges     ? "open"
+                    : report.volume < 0       ? "closed, inside out"
+                                              : "closed");
+    }
+}
+
+static int load(struct run *r)
+{
+    const struct options *o = r->options;
+    bool right = frontend_load(&r->frontend, o->scenes.at[0], o);
+    r->stats.parse_s = r->frontend.seconds;
+    double start = thread_seconds();
+    if (right)
+        right = lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
+    r->stats.load_s = thread_seconds() - start;
+    int status = frontend_report(&r->frontend, o, DIAG_WARNING);
+    if (right && o->verbose)
+        describe_meshes(r);
+    return status;
+}
+
+static void render(struct run *r)
+{
+    struct progress progress;
+    struct render_options *to = &r->render;
+    uint32_t width = to->crop.x1 - to->crop.x0, height = to->crop.y1 - to->crop.y0;
+    choose_sampling(r);
+    r->picture = picture_new(width, height, r->format == PICTURE_PFM);
+    progress_begin(&progress, r->options->quiet, (unsigned long)width * height);
+    to->progress.report = progress_report;
+    to->progress.context = &progress;
+    render_scene(&r->lowered.scene, to, r->picture, &r->stats.render);
+    progress_end(&progress);
+    r->stats.width = width;
+    r->stats.height = height;
+}
+
+static int write_picture(struct run *r)
+{
+    double start = thread_seconds();
+    char why[256];
+    size_t n;
+    void *bytes = picture_encode(r->picture, r->format, &n, why);
+    const char *reason = bytes ? file_write(r->output, bytes, n) : why;
+    free(bytes);
+    r->stats.write_s = thread_seconds() - start;
+    return reason ? report_output(r, reason) : 0;
+}
+
+static int run_steps(struct run *r)
+{
+    double start = thread_seconds();
+    int status = choose_output(r);
+    if (status == 0)
+        status = load(r);
+    if (status == 0)
+        status = choose_size(r);
+    const char *obstacle = status == 0 ? output_obstacle(r->output) : NULL;
+    if (obstacle)
+        status = report_output(r, obstacle);
+    if (status != 0)
+        return status;
+    render(r);
+    status = write_picture(r);
+    r->stats.total_s = thread_seconds() - start;
+    if (status == 0)
+        stats_print_render(&r->stats, r->options, &r->lowered.scene);
+    return status;
+}
+
+static int render_with(const struct options *o)
+{
+    if (o->scenes.n != 1)
+        return o->scenes.n ? usage_error("render takes one scene, but %zu are given", o->scenes.n)
+                           : usage_error("render: no scene given");
+    struct run r = {.options = o};
+    int status = run_steps(&r);
+    picture_free(r.picture);
+    lower_free(&r.lowered);
+    frontend_free(&r.frontend);
+    free(r.output);
+    return status;
+}
+
+int command_render(int argc, char **argv)
+{
+    struct options o;
+    enum options_result result = options_read(argc, argv, FOR_RENDER, &o);
+    int status = result == OPTIONS_HELP      ? command_help(FOR_RENDER)
+                 : result == OPTIONS_VERSION ? command_version()
+                 : result == OPTIONS_WRONG   ? EXIT_USAGE
+                                             : render_with(&o);
+    options_free(&o);
+    return status;
+}

@@ -1,0 +1,121 @@
+#include "config.h"
+
+#include "cmd/frontend.h"
+
+#include "base/file.h"
+#include "base/thread.h"
+#include "eval/eval.h"
+#include "syntax/syntax.h"
+#include "validate/validate.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *display_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "<stdin>" : path;
+}
+
+/* The scene's text as a source; NULL after reporting. */
+static const struct source *read_scene(struct frontend *f, const char *path)
+{
+    char *text;
+    size_t n;
+    const char *reason = file_read(path, &text, &n);
+    if (reason) {
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
+                    display_name(path), reason);
+        return NULL;
+    }
+    struct encoding_problem problem;
+    bool right = syntax_decode(&text, &n, &problem);
+    const struct source *s = srcmap_add(&f->sources, display_name(path), text, n);
+    if (!s) {
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "'%s' is too large",
+                    display_name(path));
+        return NULL;
+    }
+    if (right)
+        return s;
+    uint32_t at = s->base + (uint32_t)problem.offset;
+    diag_report(&f->diag, problem.code, (struct span){at, at + 1}, "%s", problem.message);
+    return NULL;
+}
+
+/* Each -D as an expression; the text becomes a source of its own. */
+static struct eval_define *parse_defines(struct frontend *f, const struct options *o)
+{
+    struct eval_define *defines = mem_zalloc(o->defines.n, sizeof *defines);
+    vec_reserve(&f->defines, o->defines.n); /* nodes are pointed to */
+    for (size_t i = 0; i < o->defines.n; i++) {
+        const char *text = o->defines.at[i], *value = strchr(text, '=') + 1;
+        size_t n = strlen(value);
+        char *copy = mem_alloc(n + 2, 1);
+        memcpy(copy, value, n);
+        const struct source *s = srcmap_add(&f->sources, "<-D>", copy, n);
+        if (!s)
+            mem_exhausted(n);
+        struct ast ast;
+        syntax_parse_value(&f->sources, s, &ast);
+        vec_push(&f->defines, ast);
+        defines[i] = (struct eval_define){{text, (size_t)(value - 1 - text)}, ast.statements};
+    }
+    return defines;
+}
+
+/* XML that is no tree would only yield consequential errors; a native text with a mistake still
+ * shows most of its statements. */
+static bool may_evaluate(const struct frontend *f, bool parsed)
+{
+    return parsed || !f->ast.xml;
+}
+
+/* After syntax errors nothing is said to be missing: it may stand where the text did not parse. */
+static void evaluate(struct frontend *f, const struct options *o, bool parsed)
+{
+    struct eval_define *defines = parse_defines(f, o);
+    struct eval_options options = {defines, o->defines.n};
+    eval_scene(&f->ast, &options, &f->desc, &f->diag);
+    if (parsed || f->desc.camera)
+        validate_scene(&f->desc, &f->diag);
+    free(defines);
+}
+
+bool frontend_load(struct frontend *f, const char *path, const struct options *o)
+{
+    double start = thread_seconds();
+    *f = (struct frontend){0};
+    diag_init(&f->diag, &f->sources);
+    const struct source *s = read_scene(f, path);
+    if (s) {
+        bool parsed = syntax_parse(s, o->max_objects, &f->ast, &f->diag);
+        if (may_evaluate(f, parsed))
+            evaluate(f, o, parsed);
+    }
+    f->seconds = thread_seconds() - start;
+    return f->diag.errors == 0;
+}
+
+void frontend_free(struct frontend *f)
+{
+    desc_free(&f->desc);
+    ast_free(&f->ast);
+    for (size_t i = 0; i < f->defines.n; i++)
+        ast_free(&f->defines.at[i]);
+    vec_free(&f->defines);
+    diag_free(&f->diag);
+    srcmap_free(&f->sources);
+}
+
+int frontend_report(struct frontend *f, const struct options *o, enum diag_level least)
+{
+    bool json = o->format == DIAG_FORMAT_JSON;
+    struct diag_print_options print = {
+        .format = o->format,
+        .colour = !json && isatty(STDERR_FILENO) && !getenv("NO_COLOR"),
+        .least = o->quiet ? DIAG_ERROR : least,
+    };
+    diag_print(&f->diag, &print, json ? stdout : stderr);
+    return (int)f->diag.exit;
+}

@@ -1,0 +1,27 @@
+/* A scene file through all that comes before lowering: read, decode, parse, evaluate, validate. */
+#ifndef WRT_CMD_FRONTEND_H
+#define WRT_CMD_FRONTEND_H
+
+#include "ast/ast.h"
+#include "cmd/options.h"
+#include "diag/diag.h"
+#include "eval/desc.h"
+
+struct frontend {
+    struct srcmap sources;
+    struct diag diag;
+    struct ast ast;
+    struct desc desc;
+    VEC(struct ast) defines; /* the values of -D */
+    double seconds;
+};
+
+/* Loads the scene; true when it may be lowered.  Everything found is in f->diag; free with
+ * frontend_free in any case. */
+bool frontend_load(struct frontend *f, const char *path, const struct options *options);
+void frontend_free(struct frontend *f);
+
+/* Prints what was found as the options say; returns the exit status it asks for. */
+int frontend_report(struct frontend *f, const struct options *options, enum diag_level least);
+
+#endif

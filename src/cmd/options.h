@@ -1,0 +1,51 @@
+/* The command line. */
+#ifndef WRT_CMD_OPTIONS_H
+#define WRT_CMD_OPTIONS_H
+
+#include "base/vec.h"
+#include "diag/diag.h"
+#include "render/render.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { FOR_RENDER = 1, FOR_CHECK = 2 };
+
+enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
+
+struct options {
+    VEC(const char *) scenes;
+    VEC(const char *) defines; /* NAME=VALUE */
+    const char *output;        /* or NULL */
+    uint32_t width, height;    /* 0: the scene's */
+    bool cropped;
+    uint32_t crop[4];
+    uint32_t grid, depth, threads;
+    uint64_t seed;
+    size_t max_objects;
+    enum render_show show;
+    enum stats_format stats;
+    enum diag_format format;
+    bool jitter, brute_force, no_skip, quiet, verbose;
+};
+
+/* Exit statuses of wrong usage. */
+enum { EXIT_USAGE = 2 };
+
+/* What the command line asks for. */
+enum options_result { OPTIONS_RUN, OPTIONS_HELP, OPTIONS_VERSION, OPTIONS_WRONG };
+
+/* Reads the arguments for a command (FOR_...).  OPTIONS_WRONG after saying why on stderr. */
+enum options_result options_read(int argc, char **argv, unsigned command, struct options *out);
+void options_free(struct options *o);
+
+/* The first argument that is no option or an option's argument; argc: none. */
+int options_first_operand(int argc, char **argv);
+
+/* The lines of help for a command's options. */
+void options_help(unsigned command, FILE *out);
+
+/* "wrt: error: ..." on stderr; returns EXIT_USAGE. */
+int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif

@@ -1,0 +1,25 @@
+/* --stats, for people and as JSON. */
+#ifndef WRT_CMD_STATS_H
+#define WRT_CMD_STATS_H
+
+#include "cmd/options.h"
+#include "lower/lower.h"
+#include "render/render.h"
+
+struct run_stats {
+    double parse_s, load_s, write_s, total_s;
+    uint32_t width, height;
+    struct render_stats render;
+};
+
+void stats_print_render(const struct run_stats *s, const struct options *o,
+                        const struct scene *scene);
+
+struct check_stats {
+    const char *scene;
+    double parse_s;
+    size_t surfaces, lights, materials, textures, errors, warnings;
+};
+void stats_print_check(const struct check_stats *s, const struct options *o);
+
+#endif

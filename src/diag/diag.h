@@ -1,0 +1,107 @@
+/* Diagnostics: collected while stages run, printed together in file order.
+ *
+ *     struct diag_entry *e = diag_report(diag, DIAG_UNKNOWN_PROPERTY, span, "unknown property '%.*s'", ...);
+ *     diag_note(e, "a sphere has: ...");
+ *     diag_fix(e, span, DIAG_FIX_SAFE, "radius", "did you mean 'radius'?");
+ *
+ * Message style: lower case, no full stop, names in single quotes, the reason and what was done;
+ * "cannot" (never will) or "could not" (this time). */
+#ifndef WRT_DIAG_DIAG_H
+#define WRT_DIAG_DIAG_H
+
+#include "base/arena.h"
+#include "base/srcmap.h"
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum diag_level { DIAG_NOTE, DIAG_WARNING, DIAG_ERROR };
+
+/* Exit statuses of the program (cli.md). */
+enum diag_exit { DIAG_EXIT_OK = 0, DIAG_EXIT_INPUT = 1, DIAG_EXIT_RESOURCE = 3 };
+
+enum diag_code {
+#define DIAG(id, code, slug, level, exit, summary) DIAG_##id,
+#include "diag/diag.def"
+#undef DIAG
+    DIAG_CODES
+};
+
+struct diag_rule {
+    const char *code, *slug, *summary;
+    enum diag_level level;
+    enum diag_exit exit;
+};
+extern const struct diag_rule diag_rules[DIAG_CODES];
+
+enum diag_fix_kind { DIAG_FIX_SAFE, DIAG_FIX_MAYBE };
+
+struct diag_label {
+    struct span span;
+    const char *text;
+};
+
+struct diag_fixit {
+    struct span span; /* replaced; empty: an insertion */
+    const char *text;
+    enum diag_fix_kind kind;
+};
+
+struct diag_entry {
+    enum diag_code code;
+    enum diag_level level;
+    struct span span;
+    const char *message;
+    VEC(struct diag_label) labels; /* secondary places */
+    VEC(const char *) notes;
+    VEC(struct diag_fixit) fixits;
+    struct diag *owner;
+    size_t order; /* of report, to keep sorting stable */
+};
+
+/* Entries kept; further ones are counted only. */
+enum { DIAG_LIMIT = 1000 };
+
+struct diag {
+    const struct srcmap *sources; /* borrowed */
+    struct arena arena;
+    VEC(struct diag_entry *) entries;
+    size_t dropped;
+    size_t errors, warnings; /* all, dropped ones too */
+    enum diag_exit exit;     /* what the errors so far ask for: INPUT wins over RESOURCE */
+    struct diag_entry spare; /* takes what is dropped */
+};
+
+void diag_init(struct diag *d, const struct srcmap *sources);
+void diag_free(struct diag *d);
+
+/* Reports; the entry returned is valid until diag_free and takes labels, notes and fix-its.  An
+ * unknown span ({0, 0}) means no place in a text. */
+struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
+                               const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+void diag_label(struct diag_entry *e, struct span span, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void diag_note(struct diag_entry *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void diag_fix(struct diag_entry *e, struct span span, enum diag_fix_kind kind, const char *format,
+              ...) __attribute__((format(printf, 4, 5)));
+
+/* Adds the note "did you mean 'x'?" and a fix-it when `meant` is not empty. */
+void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant);
+
+/* Sorts by place: entries without one first, then by source and offset. */
+void diag_sort(struct diag *d);
+
+enum diag_format { DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON };
+
+struct diag_print_options {
+    enum diag_format format;
+    bool colour;
+    enum diag_level least; /* lower levels are not printed */
+};
+
+/* Prints all entries in order. */
+void diag_print(struct diag *d, const struct diag_print_options *o, FILE *out);
+
+#endif

@@ -1,0 +1,12 @@
+/* Writers of one entry, one for each format (used by diag_print). */
+#ifndef WRT_DIAG_PRINT_H
+#define WRT_DIAG_PRINT_H
+
+#include "diag/diag.h"
+
+void diag_print_text(const struct diag *d, const struct diag_entry *e, bool colour, FILE *out);
+void diag_print_json(const struct diag *d, const struct diag_entry *e, FILE *out);
+
+const char *diag_level_name(enum diag_level level);
+
+#endif

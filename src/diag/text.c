@@ -1,0 +1,150 @@
+/* Diagnostics as text, in clang's manner:
+ *
+ *     scene.wrt:3:5: error: unknown property 'radus' of sphere [E102-unknown-property]
+ *         3 |     radus: 1
+ *           |     ^~~~~
+ *           |     radius
+ *     note: ...
+ */
+#include "config.h"
+
+#include "diag/print.h"
+
+enum { TAB = 8, WINDOW = 100, LEAD = 60 }; /* columns */
+
+struct style {
+    const char *strong, *level, *caret, *fix, *plain;
+};
+
+static struct style style_of(enum diag_level level, bool colour)
+{
+    static const char *const level_colour[] = {
+        [DIAG_NOTE] = "\033[1;36m", [DIAG_WARNING] = "\033[1;35m", [DIAG_ERROR] = "\033[1;31m"};
+    if (!colour)
+        return (struct style){"", "", "", "", ""};
+    return (struct style){"\033[1m", level_colour[level], "\033[1;32m", "\033[32m", "\033[0m"};
+}
+
+/* The columns of a line that are shown, as byte offsets, so that a line of any length prints. */
+struct window {
+    size_t begin, end;
+};
+
+static bool continues(char c)
+{
+    return (c & 0xC0) == 0x80;
+}
+
+static struct window window_around(struct str line, size_t caret)
+{
+    size_t begin = caret > LEAD && line.n > WINDOW ? caret - LEAD : 0;
+    while (begin && continues(line.at[begin]))
+        begin--;
+    size_t end = begin + WINDOW < line.n ? begin + WINDOW : line.n;
+    while (end < line.n && continues(line.at[end]))
+        end++;
+    return (struct window){begin, end};
+}
+
+/* Prints bytes [begin, end) of the line with tabs widened, or, when as_blank, as many blanks (or
+ * `mark`s) as they take.  Returns the column after them. */
+static size_t put_columns(FILE *out, struct str line, size_t begin, size_t end, size_t column,
+                          char mark)
+{
+    for (size_t i = begin; i < end; i++) {
+        unsigned char c = (unsigned char)line.at[i];
+        if (c == '\t') {
+            do
+                putc(mark ? mark : ' ', out);
+            while (++column % TAB);
+        } else if (mark) {
+            if (!continues((char)c)) {
+                putc(mark, out);
+                column++;
+            }
+        } else {
+            putc(c < 32 || c == 127 ? '?' : c, out);
+            column += !continues((char)c);
+        }
+    }
+    return column;
+}
+
+static void put_source_line(FILE *out, const struct location *at, struct window w)
+{
+    fprintf(out, "%5u | %s", at->line, w.begin ? "..." : "");
+    put_columns(out, at->line_text, w.begin, w.end, 0, 0);
+    fprintf(out, "%s\n", w.end < at->line_text.n ? "..." : "");
+}
+
+static void put_caret_line(FILE *out, const struct location *at, struct window w, size_t begin,
+                           size_t end, const struct style *s)
+{
+    fprintf(out, "      | %s", w.begin ? "   " : "");
+    size_t column = put_columns(out, at->line_text, w.begin, begin, 0, ' ');
+    fprintf(out, "%s^", s->caret);
+    size_t first = begin < at->line_text.n ? str_utf8_length((unsigned char)at->line_text.at[begin]) : 1;
+    if (end > begin + first)
+        put_columns(out, at->line_text, begin + first, end < w.end ? end : w.end, column + 1, '~');
+    fprintf(out, "%s\n", s->plain);
+}
+
+/* The replacement under what it replaces, when it fits the line. */
+static void put_fixits(FILE *out, const struct diag_entry *e, const struct location *at,
+                       struct window w, const struct style *s)
+{
+    for (size_t i = 0; i < e->fixits.n; i++) {
+        const struct diag_fixit *f = &e->fixits.at[i];
+        if (f->span.begin < at->line_base + w.begin || f->span.begin > at->line_base + w.end)
+            continue;
+        fprintf(out, "      | %s", w.begin ? "   " : "");
+        put_columns(out, at->line_text, w.begin, f->span.begin - at->line_base, 0, ' ');
+        fprintf(out, "%s%s%s\n", s->fix, f->text, s->plain);
+    }
+}
+
+static void put_snippet(FILE *out, const struct location *at, struct span span,
+                        const struct diag_entry *e, const struct style *s)
+{
+    size_t begin = span.begin - at->line_base, end = span.end - at->line_base;
+    if (begin > at->line_text.n)
+        begin = at->line_text.n;
+    if (end > at->line_text.n)
+        end = at->line_text.n;
+    struct window w = window_around(at->line_text, begin);
+    put_source_line(out, at, w);
+    put_caret_line(out, at, w, begin, end, s);
+    if (e)
+        put_fixits(out, e, at, w, s);
+}
+
+static void put_place(FILE *out, const struct location *at)
+{
+    if (at->source)
+        fprintf(out, "%s:%u:%u: ", at->source->name, at->line, at->column);
+    else
+        fputs("wrt: ", out);
+}
+
+void diag_print_text(const struct diag *d, const struct diag_entry *e, bool colour, FILE *out)
+{
+    const struct diag_rule *rule = &diag_rules[e->code];
+    struct style s = style_of(e->level, colour);
+    struct location at = srcmap_locate(d->sources, e->span.begin);
+    fputs(s.strong, out);
+    put_place(out, &at);
+    fprintf(out, "%s%s:%s%s %s%s [%s-%s]\n", s.level, diag_level_name(e->level), s.plain, s.strong,
+            e->message, s.plain, rule->code, rule->slug);
+    if (at.source)
+        put_snippet(out, &at, e->span, e, &s);
+    struct style note = style_of(DIAG_NOTE, colour);
+    for (size_t i = 0; i < e->labels.n; i++) {
+        struct location there = srcmap_locate(d->sources, e->labels.at[i].span.begin);
+        put_place(out, &there);
+        fprintf(out, "%snote:%s %s\n", note.level, note.plain, e->labels.at[i].text);
+        if (there.source)
+            put_snippet(out, &there, e->labels.at[i].span, NULL, &note);
+    }
+    for (size_t i = 0; i < e->notes.n; i++)
+        fprintf(out, "%snote:%s %s\n", note.level, note.plain, e->notes.at[i]);
+}

@@ -1,0 +1,183 @@
+/* Native values as the types of the schema: one row of a table each. */
+#include "config.h"
+
+#include "eval/context.h"
+
+#include <math.h>
+
+struct target {
+    struct eval *e;
+    enum schema_prop_id id;
+    const struct schema_prop *prop;
+    struct desc_value *out;
+};
+
+static void copy_numbers(const struct value *v, struct desc_value *out)
+{
+    out->n = v->n;
+    for (int i = 0; i < 3; i++)
+        out->number[i] = (uint32_t)i < v->n ? v->number[i] : 0;
+}
+
+static bool as_number(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    return v->type == VALUE_NUMBER;
+}
+
+static bool as_integer(const struct target *t, const struct value *v)
+{
+    return as_number(t, v) && v->number[0] == floor(v->number[0]);
+}
+
+static bool as_angle(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    return v->type == VALUE_NUMBER || v->type == VALUE_ANGLE;
+}
+
+static bool as_number_or_switch(const struct target *t, const struct value *v)
+{
+    if (v->type != VALUE_BOOL)
+        return as_number(t, v);
+    t->out->n = 1;
+    t->out->number[0] = v->boolean;
+    return true;
+}
+
+static bool as_switch(const struct target *t, const struct value *v)
+{
+    return as_number_or_switch(t, v) && (t->out->number[0] == 0 || t->out->number[0] == 1);
+}
+
+static bool as_vector(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    if (v->type == VALUE_NUMBER) /* the same three times */
+        t->out->number[1] = t->out->number[2] = v->number[0];
+    return v->type == VALUE_NUMBER || (v->type == VALUE_VECTOR && v->n == 3);
+}
+
+static bool as_vector_or_pair(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    return v->type == VALUE_VECTOR || as_vector(t, v);
+}
+
+static bool as_colour(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    return v->type == VALUE_COLOUR || as_vector(t, v);
+}
+
+static bool as_size(const struct target *t, const struct value *v)
+{
+    copy_numbers(v, t->out);
+    return v->type == VALUE_VECTOR && v->n == 2 && v->number[0] == floor(v->number[0]) &&
+           v->number[1] == floor(v->number[1]);
+}
+
+static bool as_points(const struct target *t, const struct value *v)
+{
+    if (v->type != VALUE_LIST)
+        return false;
+    unsigned want = schema_leaf_count(t->id);
+    if (v->n != want) {
+        diag_report(t->e->diag, DIAG_WRONG_COUNT, v->span,
+                    "'%s' takes %u points, but found %u", t->prop->native, want, v->n);
+        t->out->n = 0;
+        return false;
+    }
+    t->out->points = arena_zalloc(&t->e->out->arena, want, sizeof *t->out->points);
+    t->out->n = want;
+    for (unsigned i = 0; i < want; i++) {
+        const struct value *item = &v->items[i];
+        if (item->type != VALUE_VECTOR)
+            return false;
+        t->out->points[i] =
+            vec3(item->number[0], item->number[1], item->n == 3 ? item->number[2] : 0);
+    }
+    return true;
+}
+
+static bool as_word(const struct target *t, const struct value *v)
+{
+    int word = v->type == VALUE_STRING ? schema_find_word(t->id, v->string, false) : -1;
+    t->out->word = word >= 0 ? (unsigned)word : 0;
+    return word >= 0;
+}
+
+static bool as_file(const struct target *t, const struct value *v)
+{
+    t->out->string = v->string;
+    return v->type == VALUE_STRING && v->string.n;
+}
+
+static bool as_member(const struct target *t, const struct value *v, enum schema_group group)
+{
+    t->out->object = v->object;
+    return v->type == VALUE_OBJECT && schema_kinds[v->object->kind].group == group;
+}
+
+static bool as_material(const struct target *t, const struct value *v)
+{
+    return as_member(t, v, SCHEMA_MATERIAL);
+}
+
+static bool as_texture(const struct target *t, const struct value *v)
+{
+    return as_member(t, v, SCHEMA_TEXTURE);
+}
+
+static bool as_surface(const struct target *t, const struct value *v)
+{
+    return as_member(t, v, SCHEMA_SURFACE);
+}
+
+typedef bool converter(const struct target *t, const struct value *v);
+static converter *const converters[SCHEMA_TYPES] = {
+    [TYPE_NUMBER] = as_number,
+    [TYPE_INTEGER] = as_integer,
+    [TYPE_ANGLE] = as_angle,
+    [TYPE_SWITCH] = as_switch,
+    [TYPE_NUMBER_OR_SWITCH] = as_number_or_switch,
+    [TYPE_VECTOR] = as_vector,
+    [TYPE_VECTOR_OR_PAIR] = as_vector_or_pair,
+    [TYPE_SCALE] = as_vector,
+    [TYPE_COLOUR] = as_colour,
+    [TYPE_SIZE] = as_size,
+    [TYPE_POINTS] = as_points,
+    [TYPE_WORD] = as_word,
+    [TYPE_FILE] = as_file,
+    [TYPE_MATERIAL] = as_material,
+    [TYPE_TEXTURE] = as_texture,
+    [TYPE_SURFACE] = as_surface,
+};
+
+static void report_misfit(struct eval *e, enum schema_prop_id id, const struct value *v)
+{
+    const struct schema_prop *p = &schema_props[id];
+    if (p->type == TYPE_WORD && v->type == VALUE_STRING) {
+        report_unknown_word(e, id, v->string, v->span, false);
+        return;
+    }
+    diag_report(e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s, but this is %s", p->native,
+                schema_type_name(p->type), value_type_name(v));
+}
+
+bool value_convert(struct eval *e, enum schema_prop_id id, const struct value *v,
+                   struct desc_value *out)
+{
+    if (v->type == VALUE_ERROR)
+        return false;
+    for (uint32_t i = 0; v->type == VALUE_LIST && i < v->n; i++)
+        if (v->items[i].type == VALUE_ERROR)
+            return false;
+    size_t errors = e->diag->errors;
+    struct target t = {e, id, &schema_props[id], out};
+    if (converters[t.prop->type](&t, v))
+        return true;
+    if (e->diag->errors == errors)
+        report_misfit(e, id, v);
+    return false;
+}

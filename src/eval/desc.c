@@ -1,0 +1,39 @@
+#include "config.h"
+
+#include "eval/desc.h"
+
+void desc_free(struct desc *d)
+{
+    vec_free(&d->textures);
+    vec_free(&d->materials);
+    vec_free(&d->lights);
+    vec_free(&d->surfaces);
+    arena_free(&d->arena);
+}
+
+const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id)
+{
+    for (const struct desc_prop *p = o->props; p; p = p->next)
+        if (p->id == id)
+            return &p->value;
+    return NULL;
+}
+
+struct vec3 desc_vector(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_value *v = desc_get(o, id);
+    const double *x = v ? v->number : schema_props[id].value;
+    return vec3(x[0], x[1], x[2]);
+}
+
+double desc_number(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_value *v = desc_get(o, id);
+    return v ? v->number[0] : schema_props[id].value[0];
+}
+
+unsigned desc_word(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_value *v = desc_get(o, id);
+    return v ? v->word : (unsigned)schema_props[id].value[0];
+}

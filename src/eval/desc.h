@@ -1,0 +1,63 @@
+/* The description: what a scene text says once names are resolved and values are typed.  Every
+ * value keeps its span; nothing is defaulted yet.  Immutable after evaluation. */
+#ifndef WRT_EVAL_DESC_H
+#define WRT_EVAL_DESC_H
+
+#include "base/arena.h"
+#include "base/srcmap.h"
+#include "base/vec.h"
+#include "math/vec3.h"
+#include "schema/schema.h"
+
+struct desc_value {
+    struct span span;
+    uint32_t n; /* numbers or points given */
+    union {
+        double number[3];           /* numbers, vectors, colours; degrees for angles */
+        struct vec3 *points;        /* TYPE_POINTS */
+        struct str string;          /* TYPE_FILE */
+        unsigned word;              /* TYPE_WORD: its number */
+        struct desc_object *object; /* TYPE_MATERIAL, TYPE_TEXTURE, TYPE_SURFACE */
+    };
+};
+
+struct desc_prop {
+    struct desc_prop *next; /* in the order given */
+    enum schema_prop_id id;
+    uint32_t leaves;        /* XML: bit n for each leaf of the property that is given */
+    struct span name_span;
+    struct desc_value value;
+};
+
+struct desc_object {
+    enum schema_kind kind;
+    uint32_t number; /* among the description's textures or materials */
+    bool xml;        /* spelt in XML: messages use its names */
+    bool broken;     /* an error was reported inside, so absences mean nothing */
+    struct span span; /* the words that open it */
+    struct str name;  /* label or id; may be empty */
+    struct desc_prop *props;
+};
+
+enum desc_model { MODEL_CLASSIC, MODEL_MODERN };
+
+struct desc {
+    struct arena arena;
+    enum desc_model model;
+    bool xml;
+    struct span start; /* the scene's first bytes, for what is missing altogether */
+    struct desc_object *camera; /* or NULL */
+    VEC(struct desc_object *) textures, materials, lights, surfaces;
+};
+
+void desc_free(struct desc *d);
+
+/* The property's value, or NULL when it is not given. */
+const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id);
+
+/* The property's numbers, or else the schema's default (which it must have). */
+struct vec3 desc_vector(const struct desc_object *o, enum schema_prop_id id);
+double desc_number(const struct desc_object *o, enum schema_prop_id id);
+unsigned desc_word(const struct desc_object *o, enum schema_prop_id id);
+
+#endif

@@ -1,0 +1,26 @@
+/* AST to description. */
+#ifndef WRT_EVAL_EVAL_H
+#define WRT_EVAL_EVAL_H
+
+#include "ast/ast.h"
+#include "diag/diag.h"
+#include "eval/desc.h"
+
+/* `-D name=value`: overrides the param of that name.  `value` is an expression's node, or a string
+ * node when the text is none. */
+struct eval_define {
+    struct str name;
+    const struct ast_node *value;
+};
+
+struct eval_options {
+    const struct eval_define *defines;
+    size_t define_count;
+};
+
+/* Evaluates into *out (initialised here; free with desc_free even after errors).  True when there
+ * were no errors. */
+bool eval_scene(const struct ast *ast, const struct eval_options *options, struct desc *out,
+                struct diag *diag);
+
+#endif

@@ -1,0 +1,245 @@
+#include "config.h"
+
+#include "image/picture.h"
+
+#include "base/mem.h"
+#include "base/str.h"
+#include "image/codec.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a file is, by its first bytes. */
+enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_OTHER };
+
+struct signature {
+    enum signature_kind kind;
+    size_t at; /* offset in the file */
+    struct str bytes;
+    const char *name;
+};
+
+#define BYTES(z) { z, sizeof z - 1 }
+
+static const struct signature signatures[] = {
+    { KIND_PNG, 0, BYTES("\x89PNG\r\n\x1a\n"), "PNG" },
+    { KIND_JPEG, 0, BYTES("\xff\xd8\xff"), "JPEG" },
+    { KIND_PPM, 0, BYTES("P6"), "PPM" },
+    { KIND_OTHER, 0, BYTES("GIF8"), "GIF" },
+    { KIND_OTHER, 0, BYTES("BM"), "BMP" },
+    { KIND_OTHER, 0, BYTES("II*\0"), "TIFF" },
+    { KIND_OTHER, 0, BYTES("MM\0*"), "TIFF" },
+    { KIND_OTHER, 0, BYTES("II+\0"), "TIFF" },
+    { KIND_OTHER, 0, BYTES("MM\0+"), "TIFF" },
+    { KIND_OTHER, 8, BYTES("WEBP"), "WebP" },
+    { KIND_OTHER, 0, BYTES("P1"), "PBM" },
+    { KIND_OTHER, 0, BYTES("P2"), "PGM" },
+    { KIND_OTHER, 0, BYTES("P3"), "text PPM" },
+    { KIND_OTHER, 0, BYTES("P4"), "PBM" },
+    { KIND_OTHER, 0, BYTES("P5"), "PGM" },
+    { KIND_OTHER, 0, BYTES("P7"), "PAM" },
+    { KIND_OTHER, 0, BYTES("PF"), "PFM" },
+    { KIND_OTHER, 0, BYTES("Pf"), "PFM" },
+    { KIND_OTHER, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR" },
+    { KIND_OTHER, 0, BYTES("#?RADIANCE"), "Radiance" },
+    { KIND_OTHER, 0, BYTES("8BPS"), "Photoshop" },
+    { KIND_OTHER, 0, BYTES("qoif"), "QOI" },
+    { KIND_OTHER, 4, BYTES("ftypavif"), "AVIF" },
+    { KIND_OTHER, 4, BYTES("ftyphei"), "HEIF" },
+    { KIND_OTHER, 0, BYTES("<svg"), "SVG" },
+};
+enum { SIGNATURES = sizeof signatures / sizeof *signatures };
+
+static const struct signature *signature_of(const uint8_t *bytes, size_t n)
+{
+    for (size_t i = 0; i < SIGNATURES; i++) {
+        const struct signature *s = &signatures[i];
+        if (n >= s->at + s->bytes.n && memcmp(bytes + s->at, s->bytes.at, s->bytes.n) == 0)
+            return s;
+    }
+    return NULL;
+}
+
+void image_reason(char reason[IMAGE_REASON_BYTES], const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(reason, IMAGE_REASON_BYTES, format, args);
+    va_end(args);
+}
+
+bool image_size_allowed(uint64_t width, uint64_t height)
+{
+    return width > 0 && height > 0 && width <= IMAGE_SIDE_LIMIT && height <= IMAGE_SIDE_LIMIT &&
+           width * height <= IMAGE_PIXEL_LIMIT;
+}
+
+bool image_size_check(uint64_t width, uint64_t height, char reason[IMAGE_REASON_BYTES])
+{
+    if (image_size_allowed(width, height))
+        return true;
+    image_reason(reason, "the picture's size of %llu x %llu is %s", (unsigned long long)width,
+                 (unsigned long long)height,
+                 width && height ? "larger than the limit" : "nothing");
+    return false;
+}
+
+/* Samples of an allowed size: fits, for IMAGE_PIXEL_LIMIT is 2^28. */
+static size_t sample_count(uint32_t width, uint32_t height)
+{
+    return (size_t)3 * width * height;
+}
+
+struct picture *picture_new(uint32_t width, uint32_t height, bool floats)
+{
+    struct picture *p = mem_zalloc(1, sizeof *p);
+    p->width = width;
+    p->height = height;
+    if (floats)
+        p->floats = mem_zalloc(sample_count(width, height), sizeof *p->floats);
+    else
+        p->bytes = mem_zalloc(sample_count(width, height), sizeof *p->bytes);
+    return p;
+}
+
+void picture_free(struct picture *p)
+{
+    if (!p)
+        return;
+    free(p->bytes);
+    free(p->floats);
+    free(p);
+}
+
+struct image *image_new(uint32_t width, uint32_t height, int depth)
+{
+    struct image *i = mem_zalloc(1, sizeof *i);
+    i->width = width;
+    i->height = height;
+    if (depth == 16)
+        i->data16 = mem_alloc(sample_count(width, height), sizeof *i->data16);
+    else
+        i->data8 = mem_alloc(sample_count(width, height), sizeof *i->data8);
+    return i;
+}
+
+void image_free(struct image *i)
+{
+    if (!i)
+        return;
+    free(i->data8);
+    free(i->data16);
+    free(i);
+}
+
+/* The original program's rounding (original.md, section 3); the comparison is false for NaN. */
+static uint8_t channel_byte(double c)
+{
+    if (!(c > 0))
+        return 0;
+    return c < 1 ? (uint8_t)(c * 255 + 0.1) : 255;
+}
+
+void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
+{
+    size_t at = ((size_t)y * p->width + x) * 3;
+    if (p->floats) {
+        p->floats[at] = (float)colour.x;
+        p->floats[at + 1] = (float)colour.y;
+        p->floats[at + 2] = (float)colour.z;
+        return;
+    }
+    p->bytes[at] = channel_byte(colour.x);
+    p->bytes[at + 1] = channel_byte(colour.y);
+    p->bytes[at + 2] = channel_byte(colour.z);
+}
+
+struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
+{
+    const struct signature *s = signature_of(bytes, n);
+    if (s && s->kind == KIND_PNG)
+        return png_file_decode(bytes, n, reason);
+    if (s && s->kind == KIND_JPEG)
+        return jpeg_file_decode(bytes, n, reason);
+    if (s)
+        image_reason(reason, "%s pictures are not read as textures; PNG and JPEG are", s->name);
+    else
+        image_reason(reason, n ? "not a PNG or JPEG picture" : "the file is empty");
+    return NULL;
+}
+
+bool picture_format_of(const char *path, enum picture_format *format)
+{
+    static const struct {
+        const char *suffix;
+        enum picture_format format;
+    } suffixes[] = {
+        { ".png", PICTURE_PNG },
+        { ".ppm", PICTURE_PPM },
+        { ".pfm", PICTURE_PFM },
+    };
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash ? slash : path, '.');
+    *format = PICTURE_PNG;
+    if (!dot)
+        return true;
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
+        if (str_equal_nocase(str_of(dot), str_of(suffixes[i].suffix))) {
+            *format = suffixes[i].format;
+            return true;
+        }
+    }
+    return false;
+}
+
+void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
+                     char reason[IMAGE_REASON_BYTES])
+{
+    bool wants_floats = format == PICTURE_PFM;
+    if (wants_floats ? !p->floats : !p->bytes) {
+        image_reason(reason, wants_floats ? "PFM wants a picture of floats"
+                                          : "PNG and PPM want a picture of bytes");
+        return NULL;
+    }
+    switch (format) {
+    case PICTURE_PPM:
+        return ppm_file_encode(p, n);
+    case PICTURE_PFM:
+        return pfm_file_encode(p, n);
+    case PICTURE_PNG:
+    default:
+        return png_file_encode(p, n, reason);
+    }
+}
+
+/* Hands the samples over; frees the image. */
+static struct picture *picture_of_image(struct image *i, char reason[IMAGE_REASON_BYTES])
+{
+    struct picture *p = NULL;
+    if (i->data8) {
+        p = mem_zalloc(1, sizeof *p);
+        *p = (struct picture){ .width = i->width, .height = i->height, .bytes = i->data8 };
+        i->data8 = NULL;
+    } else {
+        image_reason(reason, "a picture of 16 bits a channel is not read here; one of 8 is");
+    }
+    image_free(i);
+    return p;
+}
+
+struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
+{
+    const struct signature *s = signature_of(bytes, n);
+    struct image *i = NULL;
+    if (s && s->kind == KIND_PNG)
+        i = png_file_decode(bytes, n, reason);
+    else if (s && s->kind == KIND_PPM)
+        i = ppm_file_decode(bytes, n, reason);
+    else if (s)
+        image_reason(reason, "%s pictures are not read here; PNG and binary PPM are", s->name);
+    else
+        image_reason(reason, n ? "not a PNG or PPM picture" : "the file is empty");
+    return i ? picture_of_image(i, reason) : NULL;
+}

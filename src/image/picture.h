@@ -1,0 +1,61 @@
+/* Rendered pictures and decoded textures.  Row 0 is the top of a picture. */
+#ifndef WRT_IMAGE_PICTURE_H
+#define WRT_IMAGE_PICTURE_H
+
+#include "math/vec3.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A picture to write: RGB, 8 bits a channel, or 32-bit floats as they came from the renderer. */
+struct picture {
+    uint32_t width, height;
+    uint8_t *bytes; /* 3 width height, or NULL */
+    float *floats;  /* 3 width height, or NULL */
+};
+
+/* Largest width, height, and pixel count of a picture or texture. */
+enum { IMAGE_SIDE_LIMIT = 1 << 20, IMAGE_PIXEL_LIMIT = 1 << 28 };
+bool image_size_allowed(uint64_t width, uint64_t height);
+
+/* One with zeroed pixels; the size must be allowed. */
+struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
+void picture_free(struct picture *p);
+
+/* Stores a colour.  Bytes: floor(clamp(c, 0, 1) 255 + 0.1), not-a-number gives 0, as the original
+ * program did.  Threads may set different pixels at once. */
+void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
+
+/* A decoded texture: RGB, 8 or 16 bits a channel (native byte order), grey spread to three
+ * channels, palettes looked up, alpha dropped, gamma and profiles ignored. */
+struct image {
+    uint32_t width, height;
+    uint8_t *data8;   /* 3 width height, or NULL */
+    uint16_t *data16; /* 3 width height, or NULL */
+};
+
+/* Room for the reason of a failure: lower case, no full stop, NUL-terminated. */
+enum { IMAGE_REASON_BYTES = 256 };
+
+/* Decodes a whole PNG or JPEG file, told apart by content.  NULL on failure; then `reason` says
+ * why: "GIF pictures are not read; PNG and JPEG are", "the picture ends early", ...  A damaged or
+ * shortened file never gives a picture. */
+struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
+void image_free(struct image *i);
+
+enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM };
+
+/* By the suffix of path (any case; none means PNG); false when it names no format. */
+bool picture_format_of(const char *path, enum picture_format *format);
+
+/* The whole encoded file, to be freed by the caller; NULL with a reason on failure.  PNG and PPM
+ * (P6) want a picture of bytes, PFM one of floats (any other is refused).  Equal pictures give
+ * equal bytes on one machine. */
+void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
+                     char reason[IMAGE_REASON_BYTES]);
+
+/* Reads a PNG of at most 8 bits a channel or a binary PPM back (tests and `wrt diff`). */
+struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
+
+#endif

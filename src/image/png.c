@@ -1,0 +1,217 @@
+/* PNG through libpng.
+ *
+ * libpng reports errors by longjmp.  What it may jump over lives in a struct owned by the caller
+ * of the function that calls setjmp, so no local variable can be clobbered. */
+#include "config.h"
+
+#include "image/codec.h"
+
+#include "base/vec.h"
+
+#include <png.h>
+#include <setjmp.h>
+#include <string.h>
+
+/* ---- errors ---------------------------------------------------------------------------------- */
+
+static _Noreturn void on_error(png_structp png, png_const_charp message)
+{
+    char *reason = png_get_error_ptr(png);
+    if (!reason[0])
+        image_reason(reason, "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message;
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+struct decoder {
+    png_structp png;
+    png_infop info;
+    const uint8_t *at, *end;
+    struct image *image;
+    char *reason;
+};
+
+static void read_bytes(png_structp png, png_bytep out, size_t n)
+{
+    struct decoder *d = png_get_io_ptr(png);
+    if (n > (size_t)(d->end - d->at)) {
+        image_reason(d->reason, "the picture ends early");
+        png_error(png, "end of file");
+    }
+    memcpy(out, d->at, n);
+    d->at += n;
+}
+
+/* Chunks that do not change a pixel here are not even unpacked: a text or profile may be a
+ * compressed bomb. */
+static void skip_chunks(png_structp png)
+{
+    static const png_byte names[] = "iCCP\0zTXt\0iTXt\0tEXt\0sPLT\0eXIf\0hIST\0bKGD\0pCAL\0sCAL";
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, names, (int)(sizeof names / 5));
+}
+
+/* Deflate packs 1032 bytes into one at most (zlib's technical details), so a header that claims
+ * more than the file can hold is found out before any memory is asked for. */
+static void check_size(struct decoder *d, size_t file_bytes)
+{
+    uint32_t height = png_get_image_height(d->png, d->info);
+    if (!image_size_check(png_get_image_width(d->png, d->info), height, d->reason))
+        png_error(d->png, "size");
+    uint64_t raw = (uint64_t)png_get_rowbytes(d->png, d->info) * height;
+    if (raw / 1032 > file_bytes) {
+        image_reason(d->reason, "the picture ends early");
+        png_error(d->png, "end of file");
+    }
+}
+
+/* Any kind of PNG to RGB of 8 or 16 bits.  A tRNS chunk of grey or RGB pictures needs no
+ * transformation: it is alpha, and alpha is dropped. */
+static void set_transformations(png_structp png, png_infop info)
+{
+    int colour = png_get_color_type(png, info);
+    if (colour == PNG_COLOR_TYPE_PALETTE)
+        png_set_palette_to_rgb(png);
+    else if (!(colour & PNG_COLOR_MASK_COLOR)) {
+        if (png_get_bit_depth(png, info) < 8)
+            png_set_expand_gray_1_2_4_to_8(png);
+        png_set_gray_to_rgb(png);
+    }
+    png_set_strip_alpha(png);
+#ifndef WORDS_BIGENDIAN
+    if (png_get_bit_depth(png, info) == 16)
+        png_set_swap(png);
+#endif
+}
+
+static void read_rows(struct decoder *d, int passes)
+{
+    const struct image *i = d->image;
+    size_t row_bytes = png_get_rowbytes(d->png, d->info);
+    uint8_t *data = i->data16 ? (uint8_t *)i->data16 : i->data8;
+    if (row_bytes != (size_t)3 * i->width * (i->data16 ? 2 : 1))
+        png_error(d->png, "the picture is of an unknown kind");
+    for (int pass = 0; pass < passes; pass++)
+        for (uint32_t y = 0; y < i->height; y++)
+            png_read_row(d->png, data + y * row_bytes, NULL);
+}
+
+static void decode(struct decoder *d)
+{
+    size_t file_bytes = (size_t)(d->end - d->at);
+    png_set_read_fn(d->png, d, read_bytes);
+    png_set_user_limits(d->png, IMAGE_SIDE_LIMIT, IMAGE_SIDE_LIMIT);
+    skip_chunks(d->png);
+    png_read_info(d->png, d->info);
+    check_size(d, file_bytes);
+    set_transformations(d->png, d->info);
+    int passes = png_set_interlace_handling(d->png);
+    png_read_update_info(d->png, d->info);
+    d->image = image_new(png_get_image_width(d->png, d->info),
+                         png_get_image_height(d->png, d->info),
+                         png_get_bit_depth(d->png, d->info));
+    read_rows(d, passes);
+    png_read_end(d->png, NULL); /* checks that the file goes on to its end mark */
+}
+
+static bool decode_guarded(struct decoder *d)
+{
+    if (setjmp(png_jmpbuf(d->png)))
+        return false;
+    decode(d);
+    return true;
+}
+
+struct image *png_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
+{
+    struct decoder d = { .at = bytes, .end = bytes + n, .reason = reason };
+    reason[0] = 0;
+    d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
+    if (d.png)
+        d.info = png_create_info_struct(d.png);
+    bool ok = d.info && decode_guarded(&d);
+    png_destroy_read_struct(&d.png, &d.info, NULL);
+    if (ok)
+        return d.image;
+    if (!reason[0])
+        image_reason(reason, "could not start libpng");
+    image_free(d.image);
+    return NULL;
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+struct encoder {
+    png_structp png;
+    png_infop info;
+    const struct picture *picture;
+    VEC(uint8_t) out;
+};
+
+static void write_bytes(png_structp png, png_bytep bytes, size_t n)
+{
+    struct encoder *e = png_get_io_ptr(png);
+    vec_reserve(&e->out, n);
+    memcpy(e->out.at + e->out.n, bytes, n);
+    e->out.n += n;
+}
+
+static void flush(png_structp png)
+{
+    (void)png;
+}
+
+/* Measured on 32 rendered pictures, 23 megapixels in all: libpng's defaults take 3.5 s for 6.7 MB,
+ * more than rendering; this takes 0.64 s for 7.8 MB (level 3: 0.99 s for 7.2 MB; Up instead of Sub
+ * is a little worse in both). */
+enum { LEVEL = 1, FILTER = PNG_FILTER_SUB, CHUNK_BYTES = 1 << 16 };
+
+static void encode(struct encoder *e)
+{
+    const struct picture *p = e->picture;
+    png_set_write_fn(e->png, e, write_bytes, flush);
+    png_set_user_limits(e->png, IMAGE_SIDE_LIMIT, IMAGE_SIDE_LIMIT);
+    png_set_compression_level(e->png, LEVEL);
+    png_set_compression_buffer_size(e->png, CHUNK_BYTES);
+    png_set_filter(e->png, PNG_FILTER_TYPE_BASE, FILTER);
+    png_set_IHDR(e->png, e->info, p->width, p->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(e->png, e->info);
+    for (uint32_t y = 0; y < p->height; y++)
+        png_write_row(e->png, p->bytes + (size_t)3 * y * p->width);
+    png_write_end(e->png, e->info);
+}
+
+static bool encode_guarded(struct encoder *e)
+{
+    if (setjmp(png_jmpbuf(e->png)))
+        return false;
+    encode(e);
+    return true;
+}
+
+void *png_file_encode(const struct picture *p, size_t *n, char reason[IMAGE_REASON_BYTES])
+{
+    struct encoder e = { .picture = p };
+    reason[0] = 0;
+    e.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
+    if (e.png)
+        e.info = png_create_info_struct(e.png);
+    bool ok = e.info && encode_guarded(&e);
+    png_destroy_write_struct(&e.png, &e.info);
+    if (ok) {
+        *n = e.out.n;
+        return e.out.at;
+    }
+    if (!reason[0])
+        image_reason(reason, "could not start libpng");
+    vec_free(&e.out);
+    return NULL;
+}

@@ -1,0 +1,116 @@
+/* The files a scene names, each read once and only when something needs it. */
+#include "config.h"
+
+#include "lower/lowering.h"
+
+#include "base/file.h"
+
+#include <string.h>
+
+/* The path a property means, in the scene's arena: relative to the file that spells it. */
+static const char *path_of(struct lowering *l, const struct desc_value *file)
+{
+    const struct source *s = srcmap_source(l->sources, file->span.begin);
+    char *path = file_resolve(s ? s->name : "", file->string.at, file->string.n);
+    const char *kept = arena_copy(&l->scene->arena, path, strlen(path));
+    free(path);
+    return kept;
+}
+
+static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,
+                      const char *what, char **data, size_t *n)
+{
+    const char *reason = strlen(path) == file->string.n || !memchr(file->string.at, 0, file->string.n)
+                             ? file_read(path, data, n)
+                             : "the name holds a zero byte";
+    if (reason)
+        diag_report(l->diag, DIAG_FILE_MISSING, file->span, "could not read the %s '%s': %s", what,
+                    path, reason);
+    return reason == NULL;
+}
+
+static struct image *load_image(struct lowering *l, const struct desc_value *file)
+{
+    const char *path = path_of(l, file);
+    char *data, reason[256];
+    size_t n;
+    struct image *image = map_get(&l->images, str_of(path));
+    if (image || !read_file(l, file, path, "texture", &data, &n))
+        return image;
+    image = image_decode(data, n, reason);
+    free(data);
+    if (!image) {
+        diag_report(l->diag, DIAG_TEXTURE_DAMAGED, file->span, "cannot use the texture '%s': %s",
+                    path, reason);
+        return NULL;
+    }
+    vec_push(&l->scene->images, image);
+    map_set(&l->images, str_of(path), image);
+    return image;
+}
+
+uint32_t lower_texture(struct lowering *l, const struct desc_object *o)
+{
+    if (!o)
+        return TEXTURE_NONE;
+    if (l->texture_of[o->number] != TEXTURE_NONE)
+        return l->texture_of[o->number];
+    struct texture t = {.image = load_image(l, desc_get(o, PROP_FILE)),
+                        .linear = desc_word(o, PROP_FILTER) == 1};
+    uint32_t number = (uint32_t)l->scene->textures.n;
+    vec_push(&l->scene->textures, t);
+    return l->texture_of[o->number] = number;
+}
+
+/* A text file as a source, so that findings can point into it. */
+static const struct source *load_source(struct lowering *l, const struct desc_value *file,
+                                        const char *path, const char *what)
+{
+    char *data;
+    size_t n;
+    if (!read_file(l, file, path, what, &data, &n))
+        return NULL;
+    const struct source *s = srcmap_add(l->sources, path, data, n);
+    if (!s)
+        diag_report(l->diag, DIAG_SCENE_TOO_LARGE, file->span,
+                    "the %s '%s' is too large together with the other files (limit 4 GB in all)",
+                    what, path);
+    return s;
+}
+
+static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file, const char *path)
+{
+#ifdef HAVE_OPENMESH
+    const struct source *s = load_source(l, file, path, "mesh");
+    return s ? off_parse(s, l->diag) : NULL;
+#else
+    diag_report(l->diag, DIAG_MESH_SUPPORT, file->span,
+                "cannot use the mesh '%s': this wrt was built without OpenMesh", path);
+    return NULL;
+#endif
+}
+
+const struct mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file)
+{
+    const char *path = path_of(l, file);
+    uintptr_t known = (uintptr_t)map_get(&l->meshes, str_of(path));
+    if (known)
+        return l->out->meshes.at[known - 1].mesh;
+    struct lower_mesh m = {path, load_mesh(l, file, path)};
+    vec_push(&l->out->meshes, m);
+    map_set(&l->meshes, str_of(path), (void *)(uintptr_t)l->out->meshes.n);
+    return m.mesh;
+}
+
+const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *file, size_t faces)
+{
+    const struct source *s = load_source(l, file, path_of(l, file), "UV list");
+    struct vec2 *uvs = NULL;
+    if (!s || !uv_list_parse(s, faces, &uvs, l->diag))
+        return NULL;
+    size_t n = 3 * faces;
+    struct vec2 *kept = arena_zalloc(&l->scene->arena, n, sizeof *kept);
+    memcpy(kept, uvs, n * sizeof *kept);
+    free(uvs);
+    return kept;
+}

@@ -1,0 +1,86 @@
+#include "config.h"
+
+#include "lower/lowering.h"
+
+#include <string.h>
+
+static void lower_camera(struct lowering *l)
+{
+    const struct desc_object *o = l->desc->camera;
+    const struct desc_value *size = desc_get(o, PROP_RESOLUTION);
+    l->scene->camera = (struct camera){
+        .origin = desc_vector(o, PROP_EYE),
+        .back = desc_vector(o, PROP_BACK),
+        .up = desc_vector(o, PROP_UP),
+        .yfov = desc_number(o, PROP_YFOV),
+        .width = (uint32_t)size->number[0],
+        .height = (uint32_t)size->number[1],
+        .compatible = desc_number(o, PROP_COMPAT) != 0,
+    };
+}
+
+static uint32_t *none_of(size_t n)
+{
+    uint32_t *numbers = mem_alloc(n, sizeof *numbers);
+    memset(numbers, 0xFF, n * sizeof *numbers);
+    return numbers;
+}
+
+static void note_skipped(struct lowering *l, const char *what, struct str name)
+{
+    vec_push(&l->scene->skipped,
+             arena_printf(&l->scene->arena, "%s %.*s", what, STR_ARG(name)));
+}
+
+/* Names what was left out, for --stats. */
+static void note_unused(struct lowering *l)
+{
+    const struct desc *d = l->desc;
+    for (size_t i = 0; i < d->textures.n; i++)
+        if (l->texture_of[i] == UINT32_MAX)
+            note_skipped(l, "texture", desc_get(d->textures.at[i], PROP_FILE)->string);
+    for (size_t i = 0; i < d->materials.n; i++)
+        if (l->material_of[i] == UINT32_MAX && d->materials.at[i]->name.n)
+            note_skipped(l, "material", d->materials.at[i]->name);
+    for (size_t i = 0; i < d->surfaces.n; i++) {
+        const struct desc_value *uvs = desc_get(d->surfaces.at[i], PROP_UV_FILE);
+        if (uvs && i < l->scene->surfaces.n && !desc_get(d->surfaces.at[i], PROP_NORMAL_MAP) &&
+            !desc_get(desc_get(d->surfaces.at[i], PROP_MATERIAL)->object, PROP_TEXTURE))
+            note_skipped(l, "uv_file", uvs->string);
+    }
+}
+
+bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                 struct diag *diag)
+{
+    *out = (struct lowered){0};
+    struct lowering l = {
+        .desc = d,
+        .sources = sources,
+        .out = out,
+        .scene = &out->scene,
+        .diag = diag,
+        .material_of = none_of(d->materials.n),
+        .texture_of = none_of(d->textures.n),
+    };
+    size_t errors = diag->errors;
+    lower_camera(&l);
+    for (size_t i = 0; i < d->lights.n; i++)
+        lower_light(&l, d->lights.at[i]);
+    for (size_t i = 0; i < d->surfaces.n; i++)
+        lower_surface(&l, d->surfaces.at[i]);
+    note_unused(&l);
+    free(l.material_of);
+    free(l.texture_of);
+    map_free(&l.images);
+    map_free(&l.meshes);
+    return diag->errors == errors;
+}
+
+void lower_free(struct lowered *l)
+{
+    for (size_t i = 0; i < l->meshes.n; i++)
+        mesh_free(l->meshes.at[i].mesh);
+    vec_free(&l->meshes);
+    scene_free(&l->scene);
+}

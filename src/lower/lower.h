@@ -1,0 +1,31 @@
+/* Validated description to runtime scene, leaving out what the picture does not need: textures and
+ * materials that nothing uses are never opened, texture coordinates are read only where a texture
+ * or normal map asks for them, normals only where they are interpolated. */
+#ifndef WRT_LOWER_LOWER_H
+#define WRT_LOWER_LOWER_H
+
+#include "diag/diag.h"
+#include "eval/desc.h"
+#include "scene/mesh.h"
+#include "scene/scene.h"
+
+/* A mesh file of the scene, for whoever wants to say more about it. */
+struct lower_mesh {
+    const char *path; /* in the scene's arena */
+    struct mesh *mesh; /* NULL: it could not be read */
+};
+
+struct lowered {
+    struct scene scene;
+    VEC(struct lower_mesh) meshes; /* each file once */
+};
+
+/* Lowers into *out (initialised here; free with lower_free even after errors).  Mesh files and UV
+ * lists become sources of `sources`, so that diagnostics can point into them.  True when there
+ * were no errors. */
+bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                 struct diag *diag);
+
+void lower_free(struct lowered *l);
+
+#endif

@@ -1,0 +1,97 @@
+/* Rays and what they hit. */
+#ifndef WRT_MATH_RAY_H
+#define WRT_MATH_RAY_H
+
+#include "math/vec3.h"
+
+#include <float.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#define PRIM_NONE UINT32_MAX
+#define SURFACE_NONE UINT32_MAX
+
+/* t_max of a ray without an end; an infinite t is never a hit. */
+#define RAY_UNBOUNDED DBL_MAX
+
+/* A point lies on what is nearer to it than this times the coordinates involved: some 450 times
+ * the rounding error of one operation, an order more than what a hit point is off by. */
+#define SPAWN_TOLERANCE 1e-13
+
+/* Boxes are taken larger by this times the coordinates involved (their own and the ray's origin):
+ * more than the rounding errors of the box test and of any primitive's hit, so that no box is
+ * missed which holds a hit. */
+#define BOX_PADDING 0x1p-47
+
+/* Hits count at 0 < t <= t_max, t in units of the length of `direction` (which need not be 1).
+ *
+ * A spawned ray starts on a surface: every root whose surface its origin lies on within rounding
+ * is taken to be exactly 0 and so left out (neighbouring and coplanar faces too); `from` is the
+ * primitive it starts on, which for a flat triangle is left out by name. */
+struct ray {
+    struct vec3 origin, direction;
+    double t_max;
+    uint32_t from;    /* primitive it starts on, or PRIM_NONE */
+    uint32_t surface; /* only this surface can be hit, or SURFACE_NONE: any */
+    bool spawned;
+};
+
+enum cylinder_part { CYLINDER_BASE, CYLINDER_TOP, CYLINDER_SIDE };
+
+/* Hits are ordered by t, then by primitive number: equal distances go to the first in the file. */
+struct hit {
+    double t;
+    uint32_t prim; /* number in the geometry, PRIM_NONE: nothing hit */
+    uint32_t part; /* enum cylinder_part */
+    double b1, b2; /* triangle: weights of the second and third vertex */
+};
+
+static inline struct hit hit_none(double t_max)
+{
+    return (struct hit){.t = t_max, .prim = PRIM_NONE};
+}
+
+/* Whether a hit at t comes before *best; a t of zero, below, or not a number never does. */
+static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
+{
+    return t > 0 && (t < best->t || (t == best->t && prim < best->prim));
+}
+
+/* What the tests of one ray against boxes and triangles share. */
+struct ray_frame {
+    struct vec3 inverse;     /* 1 / direction, see ray_inverse */
+    double shear_x, shear_y; /* direction's other two components over the largest */
+    int axis;                /* of the largest component of the direction */
+};
+
+/* 1/d for box tests.  A component below 2^-60 of the largest moves the ray by less than a box's
+ * padding on any way; it is replaced by that, so that every product stays a number. */
+static inline double ray_inverse(double d, double largest)
+{
+    double least = largest * 0x1p-60;
+    return 1 / (fabs(d) < least ? copysign(least, d) : d);
+}
+
+static inline struct ray_frame ray_frame_of(struct vec3 d)
+{
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    struct ray_frame f;
+    f.axis = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
+    double largest = vec3_at(d, f.axis);
+    f.shear_x = vec3_at(d, f.axis == 2 ? 0 : f.axis + 1) / largest;
+    f.shear_y = vec3_at(d, f.axis == 0 ? 2 : f.axis - 1) / largest;
+    largest = fabs(largest);
+    f.inverse = vec3(ray_inverse(d.x, largest), ray_inverse(d.y, largest),
+                     ray_inverse(d.z, largest));
+    return f;
+}
+
+/* False for a direction of length zero or with a part that is no finite number: such a ray hits
+ * nothing. */
+static inline bool ray_has_direction(const struct ray *r)
+{
+    struct vec3 d = r->direction;
+    return fabs(d.x + d.y + d.z) <= DBL_MAX && vec3_largest(d) > 0;
+}
+
+#endif

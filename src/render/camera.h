@@ -1,0 +1,21 @@
+/* From a place in the picture to a ray. */
+#ifndef WRT_RENDER_CAMERA_H
+#define WRT_RENDER_CAMERA_H
+
+#include "math/ray.h"
+#include "scene/scene.h"
+
+/* original.md, section 3: direction(u, v) = across (2u - 1) + upwards (2v - 1) + ahead. */
+struct lens {
+    struct vec3 origin, across, upwards, ahead;
+    bool mirrored; /* compatMode 0 */
+};
+
+/* For a picture of this size; the scene's own aspect arithmetic holds when it has the scene's
+ * proportions. */
+struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height);
+
+/* u and v run from 0 to 1, v upwards. */
+struct ray lens_ray(const struct lens *l, double u, double v);
+
+#endif

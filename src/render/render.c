@@ -1,0 +1,203 @@
+#include "config.h"
+
+#include "render/tracer.h"
+
+#include "base/thread.h"
+#include "math/rng.h"
+
+#include <stdatomic.h>
+
+enum { TILE = 16 };
+
+/* A part of the picture cut into tiles that threads take in turn. */
+struct job {
+    const struct tracer *tracer;
+    struct worker *workers;
+    struct picture *out;
+    uint32_t x0, y0, x1, y1; /* of the whole picture, top left origin */
+    uint32_t columns;        /* tiles in a row */
+    double range[2];         /* distances: of the nearest and the farthest hit */
+    double (*ranges)[2];     /* the same by worker, while they are being found */
+    atomic_size_t done;      /* tiles */
+    size_t tiles;
+};
+
+/* original.md, section 3: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
+ * at the pixel's corner, n x n are spread around it. */
+static struct ray sample_ray(const struct tracer *t, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
+{
+    const struct render_options *o = t->options;
+    double n = o->grid, x = 0, y = 0;
+    if (o->jitter) {
+        uint64_t pixel = (uint64_t)j * o->width + i, sample = (uint64_t)l * o->grid + k;
+        x = rng_uniform(o->seed, pixel, sample, 0);
+        y = rng_uniform(o->seed, pixel, sample, 1);
+    }
+    if (o->grid > 1) {
+        x = (k + x) / n - 1 / (2 * n);
+        y = (l + y) / n - 1 / (2 * n);
+    }
+    return lens_ray(&t->lens, (i + x) / o->width, (j + y) / o->height);
+}
+
+static struct vec3 pixel_colour(struct worker *w, uint32_t i, uint32_t j)
+{
+    uint32_t n = w->tracer->options->grid;
+    struct vec3 sum = vec3_all(0);
+    for (uint32_t k = 0; k < n; k++) {
+        for (uint32_t l = 0; l < n; l++) {
+            struct ray ray = sample_ray(w->tracer, i, j, k, l);
+            sum = vec3_add(sum, trace_colour(w, &ray));
+        }
+    }
+    double samples = (double)n * n;
+    return vec3(sum.x / samples, sum.y / samples, sum.z / samples);
+}
+
+static struct vec3 shown_colour(struct job *job, struct worker *w, uint32_t i, uint32_t j)
+{
+    const struct tracer *t = w->tracer;
+    if (t->options->show == SHOW_PICTURE)
+        return pixel_colour(w, i, j);
+    struct ray ray = lens_ray(&t->lens, i / (double)t->options->width,
+                              j / (double)t->options->height);
+    w->stats.primary++;
+    return show_colour(t, &ray, job->range, job->out->bytes != NULL);
+}
+
+struct tile {
+    uint32_t x0, y0, x1, y1;
+};
+
+static struct tile tile_of(const struct job *job, size_t number)
+{
+    uint32_t x = job->x0 + (uint32_t)(number % job->columns) * TILE;
+    uint32_t y = job->y0 + (uint32_t)(number / job->columns) * TILE;
+    return (struct tile){ x, y, job->x1 - x < TILE ? job->x1 : x + TILE,
+                          job->y1 - y < TILE ? job->y1 : y + TILE };
+}
+
+static void report_progress(struct job *job, unsigned worker)
+{
+    const struct render_progress *p = &job->tracer->options->progress;
+    size_t done = atomic_fetch_add_explicit(&job->done, 1, memory_order_relaxed) + 1;
+    if (worker == 0 && p->report)
+        p->report(p->context, (double)done / (double)job->tiles);
+}
+
+static void render_tile(void *context, size_t number, unsigned worker)
+{
+    struct job *job = context;
+    struct tile tile = tile_of(job, number);
+    uint32_t height = job->tracer->options->height;
+    for (uint32_t y = tile.y0; y < tile.y1; y++)
+        for (uint32_t x = tile.x0; x < tile.x1; x++)
+            picture_set(job->out, x - job->x0, y - job->y0,
+                        shown_colour(job, &job->workers[worker], x, height - 1 - y));
+    report_progress(job, worker);
+}
+
+static void find_range_of_tile(void *context, size_t number, unsigned worker)
+{
+    struct job *job = context;
+    const struct tracer *t = job->tracer;
+    struct tile tile = tile_of(job, number);
+    double *range = job->ranges[worker];
+    for (uint32_t y = tile.y0; y < tile.y1; y++) {
+        for (uint32_t x = tile.x0; x < tile.x1; x++) {
+            uint32_t j = t->options->height - 1 - y;
+            struct ray ray = lens_ray(&t->lens, x / (double)t->options->width,
+                                      j / (double)t->options->height);
+            struct hit hit;
+            if (!accel_closest(&t->accel, &ray, &hit))
+                continue;
+            range[0] = hit.t < range[0] ? hit.t : range[0];
+            range[1] = hit.t > range[1] ? hit.t : range[1];
+        }
+    }
+}
+
+static void cut_tiles(struct job *job, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1)
+{
+    job->x0 = x0;
+    job->y0 = y0;
+    job->x1 = x1;
+    job->y1 = y1;
+    job->columns = (x1 - x0 + TILE - 1) / TILE;
+    job->tiles = (size_t)job->columns * ((y1 - y0 + TILE - 1) / TILE);
+}
+
+/* The distances of the whole picture, also for a crop: its greys are then those of the whole. */
+static void find_range(struct job *job)
+{
+    const struct render_options *o = job->tracer->options;
+    job->ranges = mem_alloc(o->threads, sizeof *job->ranges);
+    for (unsigned i = 0; i < o->threads; i++)
+        job->ranges[i][0] = INFINITY, job->ranges[i][1] = -INFINITY;
+    cut_tiles(job, 0, 0, o->width, o->height);
+    thread_share(job->tiles, o->threads, find_range_of_tile, job);
+    job->range[0] = INFINITY;
+    job->range[1] = -INFINITY;
+    for (unsigned i = 0; i < o->threads; i++) {
+        job->range[0] = fmin(job->range[0], job->ranges[i][0]);
+        job->range[1] = fmax(job->range[1], job->ranges[i][1]);
+    }
+    free(job->ranges);
+}
+
+static void tracer_init(struct tracer *t, const struct scene *scene,
+                        const struct render_options *options)
+{
+    *t = (struct tracer){ .scene = scene,
+                          .options = options,
+                          .lens = lens_of(&scene->camera, options->width, options->height),
+                          .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps) };
+    accel_build(&t->accel, &scene->geometry, options->brute_force);
+    for (size_t i = 0; i < scene->lights.n; i++)
+        lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
+    for (size_t i = 0; i < scene->surfaces.n; i++)
+        t->emissive |= scene->materials.at[scene->surfaces.at[i].material].kind ==
+                       MATERIAL_EMISSIVE;
+}
+
+static void tracer_free(struct tracer *t)
+{
+    for (size_t i = 0; i < t->scene->lights.n; i++)
+        lamp_free(&t->lamps[i]);
+    free(t->lamps);
+    accel_free(&t->accel);
+}
+
+static void add_stats(struct render_stats *sum, const struct render_stats *more)
+{
+    sum->primary += more->primary;
+    sum->shadow += more->shadow;
+    sum->reflection += more->reflection;
+    sum->refraction += more->refraction;
+    sum->shadow_skipped += more->shadow_skipped;
+}
+
+void render_scene(const struct scene *scene, const struct render_options *options,
+                  struct picture *out, struct render_stats *stats)
+{
+    struct tracer tracer;
+    double started = thread_seconds();
+    tracer_init(&tracer, scene, options);
+    double built = thread_seconds();
+    struct job job = { .tracer = &tracer, .out = out };
+    job.workers = mem_zalloc(options->threads, sizeof *job.workers);
+    for (unsigned i = 0; i < options->threads; i++)
+        job.workers[i].tracer = &tracer;
+    if (options->show == SHOW_DEPTH && out->bytes)
+        find_range(&job);
+    cut_tiles(&job, options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
+    thread_share(job.tiles, options->threads, render_tile, &job);
+    *stats = (struct render_stats){ .build_s = built - started,
+                                    .render_s = thread_seconds() - built };
+    for (unsigned i = 0; i < options->threads; i++) {
+        add_stats(stats, &job.workers[i].stats);
+        vec_free(&job.workers[i].paths);
+    }
+    free(job.workers);
+    tracer_free(&tracer);
+}

@@ -1,0 +1,44 @@
+/* Scene to picture. */
+#ifndef WRT_RENDER_RENDER_H
+#define WRT_RENDER_RENDER_H
+
+#include "image/picture.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum render_show { SHOW_PICTURE, SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS };
+
+/* Called now and then from one thread with the share of the work done, in [0, 1]. */
+struct render_progress {
+    void (*report)(void *context, double done);
+    void *context;
+};
+
+struct render_options {
+    uint32_t width, height;  /* of the whole picture */
+    struct { uint32_t x0, y0, x1, y1; } crop; /* pixels, top left origin, x1 and y1 outside */
+    uint32_t grid;           /* grid x grid samples a pixel, >= 1 */
+    bool jitter;
+    uint64_t seed;
+    uint32_t depth;          /* rays deeper than this are black; the original's 3 */
+    unsigned threads;        /* >= 1 */
+    enum render_show show;
+    bool brute_force;        /* no BVH: every primitive is tested against every ray */
+    bool no_skip;            /* every optimisation that can be left out is off: same bytes */
+    struct render_progress progress; /* report may be NULL */
+};
+
+struct render_stats {
+    double build_s, render_s;
+    uint64_t primary, shadow, reflection, refraction; /* rays traced */
+    uint64_t shadow_skipped; /* shadow rays whose outcome was known without tracing */
+};
+
+/* Renders the crop of the picture into `out` (made by picture_new with the crop's size).  The bytes
+ * do not depend on threads, crop, brute_force or no_skip. */
+void render_scene(const struct scene *scene, const struct render_options *options,
+                  struct picture *out, struct render_stats *stats);
+
+#endif

@@ -1,0 +1,82 @@
+/* The surfaces' primitives: spheres, capped cylinders and triangles, numbered in file order.
+ *
+ * A surface owns a run of primitives: a sphere or cylinder one, a triangle one, a quad two
+ * (v0 v1 v2, v2 v3 v0), a mesh one a face.  Equal distances go to the lower number.  Immutable
+ * once a scene is lowered; free of absolute tolerances.  shape.h has what each kind can do. */
+#ifndef WRT_SCENE_GEOMETRY_H
+#define WRT_SCENE_GEOMETRY_H
+
+#include "base/vec.h"
+#include "math/box.h"
+#include "math/ray.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum prim_kind { PRIM_SPHERE, PRIM_CYLINDER, PRIM_TRIANGLE, PRIM_KINDS };
+
+struct prim {
+    uint32_t kind : 2, index : 30; /* into the array of its kind */
+    uint32_t surface;              /* the surface it belongs to */
+};
+
+struct sphere {
+    struct vec3 center;
+    double radius; /* > 0 */
+};
+
+struct cylinder {
+    struct vec3 base;      /* centre of the base cap */
+    struct vec3 axis;      /* unit, from base to top */
+    double height, radius; /* > 0 */
+};
+
+struct triangle {
+    uint32_t vertex[3];
+    struct vec3 normal; /* unit, (v1 - v0) x (v2 - v0); zero for a triangle without area */
+};
+
+struct geometry {
+    VEC(struct prim) prims;
+    VEC(struct sphere) spheres;
+    VEC(struct cylinder) cylinders;
+    VEC(struct triangle) triangles;
+    VEC(struct vec3) vertices;
+};
+
+/* Limit on the primitives of one geometry (prim.index has 30 bits). */
+#define GEOMETRY_LIMIT (UINT32_C(1) << 30)
+
+void geometry_free(struct geometry *g);
+
+/* Append a primitive of the surface with this number. */
+void geometry_add_sphere(struct geometry *g, uint32_t surface, struct vec3 center, double radius);
+void geometry_add_cylinder(struct geometry *g, uint32_t surface, struct vec3 base, struct vec3 top,
+                           double radius);
+/* The three vertices must have been added before. */
+void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, uint32_t v1,
+                           uint32_t v2);
+/* Appends a vertex, returns its number. */
+uint32_t geometry_add_vertex(struct geometry *g, struct vec3 p);
+
+struct box geometry_prim_bounds(const struct geometry *g, uint32_t prim);
+struct box geometry_bounds(const struct geometry *g);
+
+/* The nearest hit of the ray with this one primitive that beats *best (see struct hit for the
+ * order; start with hit_none(ray->t_max)); updates *best and returns true if so. */
+bool geometry_intersect(const struct geometry *g, uint32_t prim, const struct ray *ray,
+                        const struct ray_frame *frame, struct hit *best);
+
+/* Whether p lies on the primitive within rounding (its boundary included). */
+bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
+
+/* The hit point, put back onto the primitive (projected to a sphere or cylinder, the weighted sum
+ * of a triangle's vertices): within a few ulps of the surface whatever the ray's length. */
+struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit);
+
+/* Unit normal at point p of the hit: outwards for sphere and cylinder, (v1-v0) x (v2-v0) for a
+ * triangle. */
+struct vec3 geometry_normal(const struct geometry *g, const struct hit *hit, struct vec3 p);
+
+#endif

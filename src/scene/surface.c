@@ -1,0 +1,77 @@
+#include "config.h"
+
+#include "scene/scene.h"
+
+#define PI 3.14159265358979323846
+
+static double clamp(double x, double lo, double hi)
+{
+    return x < lo ? lo : x > hi ? hi : x;
+}
+
+/* Longitude from +x over +z, and latitude counted down from the north pole. */
+static struct vec2 sphere_uv(const struct sphere *s, struct vec3 p)
+{
+    struct vec3 d = vec3_sub(p, s->center);
+    double phi = acos(clamp(d.y / s->radius, -1, 1));
+    double q = sqrt(d.x * d.x + d.z * d.z);
+    if (q == 0)
+        return (struct vec2){ 0, -phi / PI };
+    double theta = asin(d.z / q);
+    if (d.x < 0)
+        theta = PI - theta;
+    if (theta < 0)
+        theta += 2 * PI;
+    return (struct vec2){ theta / (2 * PI), -phi / PI };
+}
+
+static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)
+{
+    struct vec3 e = c->axis, p = vec3_sub(point, c->base);
+    double along = vec3_dot(e, p), x = p.x, z = p.z;
+    if (!(fabs(e.y) > 1 - 1e-6)) { /* not upright */
+        p = vec3_mad(p, -along, e);
+        x = p.y;
+        z = vec3_dot(p, vec3_normalize(vec3_cross(vec3(0, 1, 0), e)));
+    }
+    double turn = atan(x / z) / (2 * PI);
+    return (struct vec2){ z <= 0 ? -(0.5 + turn) : -turn, clamp(along / c->height, 0, 1) };
+}
+
+struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
+                       struct vec3 p)
+{
+    const struct geometry *g = &s->geometry;
+    const struct prim *prim = &g->prims.at[hit->prim];
+    if (prim->kind == PRIM_SPHERE)
+        return sphere_uv(&g->spheres.at[prim->index], p);
+    if (prim->kind == PRIM_CYLINDER)
+        return cylinder_uv(&g->cylinders.at[prim->index], p);
+    if (surface->uvs == NULL)
+        return (struct vec2){ 0, 0 };
+    const struct vec2 *uv = surface->uvs + 3 * (size_t)(hit->prim - surface->first_prim);
+    double b0 = 1 - hit->b1 - hit->b2;
+    return (struct vec2){ b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
+                          b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y };
+}
+
+/* Where the vertex normals cancel out, the face's own is taken. */
+static struct vec3 smooth_normal(const struct geometry *g, const struct surface *surface,
+                                 const struct hit *hit)
+{
+    const struct triangle *t = &g->triangles.at[g->prims.at[hit->prim].index];
+    const struct vec3 *normals = surface->normals;
+    struct vec3 n = vec3_scale(normals[t->vertex[0] - surface->first_vertex],
+                               1 - hit->b1 - hit->b2);
+    n = vec3_mad(n, hit->b1, normals[t->vertex[1] - surface->first_vertex]);
+    n = vec3_mad(n, hit->b2, normals[t->vertex[2] - surface->first_vertex]);
+    return vec3_largest(n) > 0 ? vec3_normalize(n) : t->normal;
+}
+
+struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
+                           const struct hit *hit, struct vec3 p)
+{
+    struct vec3 n = surface->normals ? smooth_normal(&s->geometry, surface, hit)
+                                     : geometry_normal(&s->geometry, hit, p);
+    return surface->flip ? vec3_neg(n) : n;
+}

@@ -1,0 +1,56 @@
+#include "config.h"
+
+#include "scene/scene.h"
+
+/* Where a coordinate falls: texel `at`, and how far on the way to the next. */
+struct texel_place {
+    uint32_t at;
+    double rest;
+};
+
+/* original.md, section 5: 1 itself is the last texel's end; elsewhere the coordinate wraps, its
+ * fraction taken from the distance to 0. */
+static struct texel_place place_on(double u, uint32_t size)
+{
+    if (u == 1)
+        return (struct texel_place){ size - 1, 1 };
+    double t = u * size, whole = trunc(t);
+    if (!(fabs(t) <= DBL_MAX))
+        return (struct texel_place){ 0, 0 };
+    double rest = fabs(t) - fabs(whole);
+    int64_t at = fabs(t) < 0x1p62 ? (int64_t)whole % (int64_t)size : (int64_t)fmod(whole, size);
+    if (at < 0)
+        return (struct texel_place){ (uint32_t)(at + size), 1 - rest };
+    return (struct texel_place){ (uint32_t)at, rest };
+}
+
+/* Row 0 is the bottom. */
+static struct vec3 texel(const struct image *image, uint32_t column, uint32_t row)
+{
+    size_t at = 3 * ((size_t)(image->height - 1 - row) * image->width + column);
+    if (image->data8) {
+        const uint8_t *p = image->data8 + at;
+        return vec3(p[0] / 255.0, p[1] / 255.0, p[2] / 255.0);
+    }
+    const uint16_t *p = image->data16 + at;
+    return vec3(p[0] / 65535.0, p[1] / 65535.0, p[2] / 65535.0);
+}
+
+static struct vec3 mix(struct vec3 a, struct vec3 b, double share_of_b)
+{
+    return vec3_mad(vec3_scale(a, 1 - share_of_b), share_of_b, b);
+}
+
+struct vec3 texture_fetch(const struct texture *t, double u, double v)
+{
+    const struct image *image = t->image;
+    struct texel_place i = place_on(u, image->width), j = place_on(v, image->height);
+    struct vec3 here = texel(image, i.at, j.at);
+    if (!t->linear)
+        return here;
+    uint32_t right = i.at + 1 < image->width ? i.at + 1 : 0;
+    uint32_t above = j.at + 1 < image->height ? j.at + 1 : 0;
+    struct vec3 low = mix(here, texel(image, right, j.at), i.rest);
+    struct vec3 high = mix(texel(image, i.at, above), texel(image, right, above), i.rest);
+    return mix(low, high, j.rest);
+}

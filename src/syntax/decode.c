@@ -1,0 +1,110 @@
+/* Bytes to UTF-8 text. */
+#include "config.h"
+
+#include "syntax/syntax.h"
+
+#include "base/mem.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum encoding { ENCODING_UTF8, ENCODING_LATIN1, ENCODING_ASCII };
+
+static bool problem_at(struct encoding_problem *p, enum diag_code code, size_t offset,
+                       const char *message)
+{
+    p->code = code;
+    p->offset = offset;
+    snprintf(p->message, sizeof p->message, "%s", message);
+    return false;
+}
+
+static bool starts_with(const char *text, size_t n, const char *prefix, size_t length)
+{
+    return n >= length && memcmp(text, prefix, length) == 0;
+}
+
+/* The value of `encoding` in an XML declaration at the start of the text, or an empty slice. */
+static struct str declared_encoding(const char *text, size_t n)
+{
+    static const char word[] = "encoding";
+    const char *end = starts_with(text, n, "<?xml", 5) ? memchr(text, '>', n) : NULL;
+    const char *at = end ? memmem(text, (size_t)(end - text), word, sizeof word - 1) : NULL;
+    if (!at)
+        return (struct str){0};
+    at += sizeof word - 1;
+    while (at < end && *at != '"' && *at != '\'')
+        at++;
+    const char *close = at < end ? memchr(at + 1, *at, (size_t)(end - at - 1)) : NULL;
+    return close ? (struct str){at + 1, (size_t)(close - at - 1)} : (struct str){0};
+}
+
+static bool encoding_of(struct str name, enum encoding *encoding)
+{
+    static const struct {
+        const char *name;
+        enum encoding encoding;
+    } known[] = {{"UTF-8", ENCODING_UTF8},         {"UTF8", ENCODING_UTF8},
+                 {"ISO-8859-1", ENCODING_LATIN1},  {"ISO8859-1", ENCODING_LATIN1},
+                 {"ISO_8859-1", ENCODING_LATIN1},  {"Latin-1", ENCODING_LATIN1},
+                 {"Latin1", ENCODING_LATIN1},      {"US-ASCII", ENCODING_ASCII},
+                 {"ASCII", ENCODING_ASCII}};
+    *encoding = ENCODING_UTF8;
+    if (!name.n)
+        return true;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (str_equal_nocase(name, str_of(known[i].name))) {
+            *encoding = known[i].encoding;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void latin1_to_utf8(char **text, size_t *n)
+{
+    size_t high = 0;
+    for (size_t i = 0; i < *n; i++)
+        high += (unsigned char)(*text)[i] >= 0x80;
+    char *out = mem_alloc(*n + high + 2, 1), *to = out;
+    for (size_t i = 0; i < *n; i++)
+        to += str_utf8_encode((unsigned char)(*text)[i], to);
+    free(*text);
+    *text = out;
+    *n += high;
+}
+
+bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem)
+{
+    if (starts_with(*text, *n, "\xFF\xFE", 2) || starts_with(*text, *n, "\xFE\xFF", 2))
+        return problem_at(problem, DIAG_ENCODING, 0,
+                          "UTF-16 is not read; save the scene as UTF-8");
+    if (starts_with(*text, *n, "\xEF\xBB\xBF", 3))
+        memmove(*text, *text + 3, *n -= 3);
+    const char *nul = *n ? memchr(*text, 0, *n) : NULL;
+    if (nul)
+        return problem_at(problem, DIAG_NOT_TEXT, (size_t)(nul - *text),
+                          "the file holds a zero byte, so it is not text");
+    enum encoding encoding;
+    struct str name = declared_encoding(*text, *n);
+    if (!encoding_of(name, &encoding)) {
+        problem_at(problem, DIAG_ENCODING, (size_t)(name.at - *text), "");
+        snprintf(problem->message, sizeof problem->message,
+                 "the encoding '%.*s' is not read; UTF-8, ISO-8859-1 and US-ASCII are",
+                 (int)(name.n < 40 ? name.n : 40), name.at);
+        return false;
+    }
+    if (encoding == ENCODING_LATIN1)
+        latin1_to_utf8(text, n);
+    size_t wrong = str_utf8_valid(*text, *n);
+    if (wrong < *n)
+        return problem_at(problem, DIAG_ENCODING, wrong, "this byte is not part of UTF-8 text");
+    return true;
+}
+
+bool syntax_is_xml(struct str text)
+{
+    text = str_trim(text);
+    return text.n && text.at[0] == '<';
+}

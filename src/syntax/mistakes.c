@@ -1,0 +1,106 @@
+/* Mistakes in the text, in user words. */
+#include "config.h"
+
+#include "syntax/parser.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* "a", "a or b", "a, b or c" */
+static void list_words(char *out, size_t room, const char *const *words, size_t n)
+{
+    size_t at = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < n && at < room; i++) {
+        const char *joint = i == 0 ? "" : i + 1 == n ? " or " : ", ";
+        int put = snprintf(out + at, room - at, "%s%s", joint, words[i]);
+        at += put > 0 ? (size_t)put : 0;
+    }
+}
+
+/* Where the missing thing belongs: after the previous token, when what was found instead stands
+ * on a later line. */
+static struct span place_of_error(const struct parser *p, struct span found)
+{
+    struct str gap = srcmap_text(p->diag->sources, (struct span){p->previous.end, found.begin});
+    bool later = p->previous.end > p->source->base && gap.n && memchr(gap.at, '\n', gap.n);
+    return later ? (struct span){p->previous.end, p->previous.end} : found;
+}
+
+static bool is_reserved(const char *found)
+{
+    return strcmp(found, "reserved word") == 0;
+}
+
+void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
+                         const char *const *expected, size_t n)
+{
+    if (p->stopped)
+        return;
+    char words[256], what[80];
+    list_words(words, sizeof words, expected, n);
+    struct str text = srcmap_text(p->diag->sources, span);
+    bool quote = !at_end && text.n && text.n < 40 && !memchr(text.at, '\n', text.n);
+    if (quote)
+        snprintf(what, sizeof what, "'%.*s'", STR_ARG(text));
+    else
+        snprintf(what, sizeof what, "the %s", found);
+    struct span place = place_of_error(p, span);
+    struct diag_entry *e =
+        n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
+          : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
+    if (is_reserved(found))
+        diag_note(e, "%s is reserved for a statement that this version does not read", what);
+}
+
+void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
+{
+    struct span opening = {p->comment_begin, p->comment_begin + mark};
+    diag_report(p->diag, DIAG_UNTERMINATED, opening, "%s", message);
+}
+
+void parser_stray(struct parser *p, struct span span, struct str text)
+{
+    if (text.n == 1 && ((unsigned char)text.at[0] < 32 || text.at[0] == 127))
+        diag_report(p->diag, DIAG_SYNTAX, span, "a control character (U+%04X) cannot stand here",
+                    (unsigned)(unsigned char)text.at[0]);
+    else
+        diag_report(p->diag, DIAG_SYNTAX, span, "'%.*s' cannot stand here", STR_ARG(text));
+}
+
+void parser_unknown_unit(struct parser *p, struct span span, struct str text)
+{
+    struct diag_entry *e = diag_report(p->diag, DIAG_NUMBER_SYNTAX, span,
+                                       "'%.*s' is not a number with a unit", STR_ARG(text));
+    diag_note(e, "the units are 'deg' and 'rad', for angles");
+}
+
+void parser_unclosed_tag(struct parser *p, struct span span)
+{
+    if (!p->stopped)
+        diag_report(p->diag, DIAG_SYNTAX, span, "expected '>' to end the tag");
+}
+
+void xml_declaration(struct parser *p, struct span span)
+{
+    struct str text = srcmap_text(p->diag->sources, span);
+    if (str_is(text, "<!DOCTYPE"))
+        parser_stop(p, DIAG_XML_DTD, span,
+                    "a document type declaration is never read, so the scene is refused");
+    else
+        parser_stop(p, DIAG_SYNTAX, span, "a declaration cannot stand here");
+}
+
+void xml_stray_less(struct parser *p, struct span span)
+{
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "'<' begins no tag here");
+    diag_fix(e, span, DIAG_FIX_MAYBE, "&lt;");
+}
+
+void xml_stray_ampersand(struct parser *p, struct span span)
+{
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_XML_ENTITY, span, "'&' begins no reference here");
+    diag_fix(e, span, DIAG_FIX_SAFE, "&amp;");
+}

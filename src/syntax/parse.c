@@ -1,0 +1,75 @@
+/* One text through its scanner and the grammar. */
+#include "config.h"
+
+#include "syntax/syntax.h"
+
+#include "syntax/parser.h"
+
+#include "grammar/scene.tab.h"
+
+#include "grammar/native.lex.h"
+#include "grammar/xml.lex.h"
+
+/* The scanners work in the source's own buffer (its two NULs are flex's end marks). */
+static bool open_scanner(struct parser *p, bool xml)
+{
+    char *text = p->source->text;
+    size_t n = (size_t)p->source->n + 2;
+    if (xml)
+        return xml_lex_init_extra(p, &p->scanner) == 0 && xml__scan_buffer(text, n, p->scanner);
+    return native_lex_init_extra(p, &p->scanner) == 0 &&
+           native__scan_buffer(text, n, p->scanner);
+}
+
+static void close_scanner(struct parser *p, bool xml)
+{
+    if (p->scanner)
+        (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
+}
+
+static void run(const struct source *source, int start_token, size_t max_objects, struct ast *out,
+                struct diag *diag)
+{
+    struct span start = {source->base, source->base};
+    struct parser p = {.ast = out,
+                       .diag = diag,
+                       .source = source,
+                       .start = start_token,
+                       .at = source->base,
+                       .max_objects = max_objects,
+                       .previous = start,
+                       .now = start};
+    if (!open_scanner(&p, out->xml))
+        mem_exhausted(source->n);
+    if (scene_parse(&p) == 2)
+        mem_exhausted(source->n);
+    close_scanner(&p, out->xml);
+    vec_free(&p.open);
+}
+
+bool syntax_parse(const struct source *source, size_t max_objects, struct ast *out,
+                  struct diag *diag)
+{
+    struct str text = {source->text, source->n};
+    size_t errors = diag->errors;
+    ast_init(out, source, syntax_is_xml(text));
+    if (!str_trim(text).n)
+        diag_report(diag, DIAG_EMPTY_FILE, (struct span){source->base, source->base},
+                    "the file is empty, so there is no scene");
+    else
+        run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, max_objects, out, diag);
+    return diag->errors == errors;
+}
+
+void syntax_parse_value(const struct srcmap *sources, const struct source *source,
+                        struct ast *out)
+{
+    struct diag silent;
+    diag_init(&silent, sources);
+    ast_init(out, source, false);
+    run(source, TOKEN_START_VALUE, SIZE_MAX, out, &silent);
+    if (silent.errors || !out->statements)
+        out->statements = ast_text(out, AST_STRING, (struct span){source->base, source->base},
+                                   (struct str){source->text, source->n});
+    diag_free(&silent);
+}

@@ -1,0 +1,102 @@
+/* What the grammar, the two scanners and their helpers share while one text is parsed (internal to
+ * src/syntax and grammar/). */
+#ifndef WRT_SYNTAX_PARSER_H
+#define WRT_SYNTAX_PARSER_H
+
+#include "ast/ast.h"
+#include "diag/diag.h"
+
+/* Brackets, blocks and elements may nest this deep. */
+enum { NESTING_LIMIT = 256 };
+
+/* The content of an element while it is read: its children and the pieces of its text. */
+struct xml_content {
+    struct ast_list children, text;
+};
+
+struct open_element {
+    struct str name;
+    struct span span;
+};
+
+struct parser {
+    struct ast *ast;
+    struct diag *diag;
+    const struct source *source;
+    void *scanner;          /* flex's yyscan_t */
+    uint32_t at;            /* offset of the next unread byte */
+    size_t max_objects;
+    int start;              /* the token that chooses what is parsed; 0 once it was given */
+    bool stopped;           /* a limit was hit: the end is feigned, errors are silent */
+    struct span previous;   /* the token before the one under way */
+    struct span now;        /* the one under way */
+    uint32_t comment_begin; /* of the comment, string or section being scanned */
+
+    struct ast_list version; /* native: `wrt 1` */
+    unsigned depth;          /* native: open brackets */
+
+    VEC(struct open_element) open; /* XML: elements not yet closed */
+    size_t closes_due;             /* XML: closing tags to feign */
+    bool tag_end_due;              /* XML: a `>` to feign */
+};
+
+/* ---- tokens.c: for both scanners ---- */
+
+/* The span of the token that takes the next `length` bytes, and advances over it. */
+struct span parser_token(struct parser *p, size_t length);
+/* Gives back the last n bytes. */
+void parser_untake(struct parser *p, size_t n);
+void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span);
+/* White space: keeps a blank line as trivia. */
+void parser_blank(struct parser *p, struct span span, struct str text);
+
+/* Reports and ends the reading: what follows would only add noise or cost. */
+void parser_stop(struct parser *p, enum diag_code code, struct span span, const char *message);
+
+/* Native brackets; parser_nest is false when they are nested too deeply. */
+bool parser_nest(struct parser *p, struct span span);
+void parser_unnest(struct parser *p);
+
+/* ---- build.c: grammar actions longer than a constructor ---- */
+
+void parser_missing_version(struct parser *p);
+void parser_version(struct parser *p, struct span span, struct span number_span,
+                    struct str number);
+struct ast_node *parser_number(struct parser *p, enum ast_kind kind, struct span span,
+                               struct str spelling);
+struct ast_node *parser_colour(struct parser *p, struct span span, struct str digits);
+struct ast_node *parser_block(struct parser *p, struct span span, struct str name,
+                              struct span name_span, struct str label, struct ast_list members);
+/* The string without its escapes; unknown ones are reported. */
+struct str parser_unescape(struct parser *p, struct span span, struct str spelling);
+
+struct xml_content xml_add_text(struct parser *p, struct xml_content c, struct span span,
+                                struct str text);
+struct ast_node *xml_element(struct parser *p, struct span span, struct str name,
+                             struct span name_span, struct ast_list attributes,
+                             struct xml_content content);
+/* The text of a reference (`lt`, `#65`, `#x41`); empty after reporting an unknown one. */
+struct str xml_reference(struct parser *p, struct str name, struct span span);
+struct str xml_attribute_value(struct parser *p, struct span span, struct str spelling);
+
+/* ---- balance.c: XML tags made a tree, whatever the text holds ---- */
+
+/* Called with each XML token before the grammar sees it; may feign closing tags. */
+int xml_balance(struct parser *p, int token, struct span span, struct str name);
+/* A closing tag to feign, if one is due. */
+bool xml_close_due(struct parser *p);
+
+/* ---- mistakes.c: what both scanners and the grammar report ---- */
+
+void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
+                         const char *const *expected, size_t n);
+/* What began at p->comment_begin never ends; points at its first `mark` bytes. */
+void parser_unterminated(struct parser *p, uint32_t mark, const char *message);
+void parser_stray(struct parser *p, struct span span, struct str text);
+void parser_unknown_unit(struct parser *p, struct span span, struct str text);
+void parser_unclosed_tag(struct parser *p, struct span span);
+void xml_declaration(struct parser *p, struct span span);
+void xml_stray_less(struct parser *p, struct span span);
+void xml_stray_ampersand(struct parser *p, struct span span);
+
+#endif

@@ -1,0 +1,31 @@
+/* Text to AST, both formats. */
+#ifndef WRT_SYNTAX_SYNTAX_H
+#define WRT_SYNTAX_SYNTAX_H
+
+#include "ast/ast.h"
+#include "diag/diag.h"
+
+/* Checks that the text is text, in an encoding that is read, and makes it UTF-8 without a byte
+ * order mark: *text and *n are replaced as needed.  A problem is described in *problem (its offset
+ * in the text as it then is); true when there is none. */
+struct encoding_problem {
+    enum diag_code code;
+    size_t offset;
+    char message[160];
+};
+bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem);
+
+/* True when the text is an XML document: its first character is `<`. */
+bool syntax_is_xml(struct str text);
+
+/* Parses a source into *out (initialised here; free with ast_free even after errors).  All
+ * independent errors are reported; true when there were none. */
+bool syntax_parse(const struct source *source, size_t max_objects, struct ast *out,
+                  struct diag *diag);
+
+/* Parses the value of a `-D`: out->statements is one expression, or a string node with the whole
+ * text when it is no expression. */
+void syntax_parse_value(const struct srcmap *sources, const struct source *source,
+                        struct ast *out);
+
+#endif

@@ -1,0 +1,84 @@
+/* The stream of tokens: which scanner, where each token lies, when to stop. */
+#include "config.h"
+
+#include "syntax/parser.h"
+
+#include "grammar/scene.tab.h"
+
+struct span parser_token(struct parser *p, size_t length)
+{
+    struct span span = {p->at, p->at + (uint32_t)length};
+    p->at = span.end;
+    return span;
+}
+
+void parser_untake(struct parser *p, size_t n)
+{
+    p->at -= (uint32_t)n;
+}
+
+void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span)
+{
+    vec_push(&p->ast->trivia, (struct trivia){span, kind});
+}
+
+void parser_blank(struct parser *p, struct span span, struct str text)
+{
+    size_t newlines = 0;
+    for (size_t i = 0; i < text.n; i++)
+        newlines += text.at[i] == '\n';
+    if (newlines > 1)
+        parser_trivia(p, TRIVIA_BLANK_LINE, span);
+}
+
+void parser_stop(struct parser *p, enum diag_code code, struct span span, const char *message)
+{
+    if (!p->stopped)
+        diag_report(p->diag, code, span, "%s", message);
+    p->stopped = true;
+}
+
+bool parser_nest(struct parser *p, struct span span)
+{
+    if (++p->depth <= NESTING_LIMIT)
+        return true;
+    parser_stop(p, DIAG_TOO_DEEP, span,
+                "brackets nested deeper than 256 levels, so the rest is not read");
+    return false;
+}
+
+void parser_unnest(struct parser *p)
+{
+    p->depth -= p->depth > 0;
+}
+
+static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
+{
+    *span = (struct span){p->at, p->at};
+    if (p->tag_end_due) {
+        p->tag_end_due = false;
+        return TOKEN_XML_TAG_END;
+    }
+    if (xml_close_due(p))
+        return TOKEN_XML_CLOSE;
+    int token = xml_scan(value, span, p->scanner);
+    return xml_balance(p, token, *span, value->text);
+}
+
+int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p)
+{
+    bool xml = p->ast->xml;
+    *span = (struct span){p->at, p->at};
+    value->text = (struct str){0};
+    if (p->start) {
+        int start = p->start;
+        p->start = 0;
+        return start;
+    }
+    int token = p->stopped ? TOKEN_END
+                : xml      ? next_xml(value, span, p)
+                           : native_scan(value, span, p->scanner);
+    p->previous = p->now;
+    p->now = *span;
+    return p->stopped ? TOKEN_END : token;
+}

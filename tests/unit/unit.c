@@ -1,0 +1,17 @@
+/* Runs every suite (CK_RUN_SUITE=name: that one). */
+#include "config.h"
+
+#include "unit.h"
+
+#include <stdlib.h>
+
+int main(void)
+{
+    SRunner *runner = srunner_create(NULL);
+    srunner_add_suite(runner, image_suite());
+    srunner_add_suite(runner, mesh_suite());
+    srunner_run_all(runner, CK_ENV);
+    int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
