@@ -52,7 +52,7 @@ static _Noreturn void on_error(j_common_ptr jpeg)
     struct decoder *d = jpeg->client_data;
     char message[JMSG_LENGTH_MAX];
     d->errors.format_message(jpeg, message);
-    image_reason(d->reason, "%s", message);
+    image_reason(d->reason, "the JPEG is damaged (libjpeg: %s)", message);
     give_up(jpeg);
 }
 
@@ -122,7 +122,7 @@ static bool decode_guarded(struct decoder *d)
 
 struct image *jpeg_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
 {
-    struct decoder d = { .bytes = bytes, .n = n, .reason = reason };
+    struct decoder d = {.bytes = bytes, .n = n, .reason = reason};
     d.jpeg.err = jpeg_std_error(&d.errors);
     d.jpeg.client_data = &d;
     d.errors.error_exit = on_error;

@@ -21,34 +21,37 @@ struct signature {
     const char *name;
 };
 
-#define BYTES(z) { z, sizeof z - 1 }
+#define BYTES(z)        \
+    {                   \
+        z, sizeof z - 1 \
+    }
 
 static const struct signature signatures[] = {
-    { KIND_PNG, 0, BYTES("\x89PNG\r\n\x1a\n"), "PNG" },
-    { KIND_JPEG, 0, BYTES("\xff\xd8\xff"), "JPEG" },
-    { KIND_PPM, 0, BYTES("P6"), "PPM" },
-    { KIND_OTHER, 0, BYTES("GIF8"), "GIF" },
-    { KIND_OTHER, 0, BYTES("BM"), "BMP" },
-    { KIND_OTHER, 0, BYTES("II*\0"), "TIFF" },
-    { KIND_OTHER, 0, BYTES("MM\0*"), "TIFF" },
-    { KIND_OTHER, 0, BYTES("II+\0"), "TIFF" },
-    { KIND_OTHER, 0, BYTES("MM\0+"), "TIFF" },
-    { KIND_OTHER, 8, BYTES("WEBP"), "WebP" },
-    { KIND_OTHER, 0, BYTES("P1"), "PBM" },
-    { KIND_OTHER, 0, BYTES("P2"), "PGM" },
-    { KIND_OTHER, 0, BYTES("P3"), "text PPM" },
-    { KIND_OTHER, 0, BYTES("P4"), "PBM" },
-    { KIND_OTHER, 0, BYTES("P5"), "PGM" },
-    { KIND_OTHER, 0, BYTES("P7"), "PAM" },
-    { KIND_OTHER, 0, BYTES("PF"), "PFM" },
-    { KIND_OTHER, 0, BYTES("Pf"), "PFM" },
-    { KIND_OTHER, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR" },
-    { KIND_OTHER, 0, BYTES("#?RADIANCE"), "Radiance" },
-    { KIND_OTHER, 0, BYTES("8BPS"), "Photoshop" },
-    { KIND_OTHER, 0, BYTES("qoif"), "QOI" },
-    { KIND_OTHER, 4, BYTES("ftypavif"), "AVIF" },
-    { KIND_OTHER, 4, BYTES("ftyphei"), "HEIF" },
-    { KIND_OTHER, 0, BYTES("<svg"), "SVG" },
+    {KIND_PNG, 0, BYTES("\x89PNG\r\n\x1a\n"), "PNG"},
+    {KIND_JPEG, 0, BYTES("\xff\xd8\xff"), "JPEG"},
+    {KIND_PPM, 0, BYTES("P6"), "PPM"},
+    {KIND_OTHER, 0, BYTES("GIF8"), "GIF"},
+    {KIND_OTHER, 0, BYTES("BM"), "BMP"},
+    {KIND_OTHER, 0, BYTES("II*\0"), "TIFF"},
+    {KIND_OTHER, 0, BYTES("MM\0*"), "TIFF"},
+    {KIND_OTHER, 0, BYTES("II+\0"), "TIFF"},
+    {KIND_OTHER, 0, BYTES("MM\0+"), "TIFF"},
+    {KIND_OTHER, 8, BYTES("WEBP"), "WebP"},
+    {KIND_OTHER, 0, BYTES("P1"), "PBM"},
+    {KIND_OTHER, 0, BYTES("P2"), "PGM"},
+    {KIND_OTHER, 0, BYTES("P3"), "text PPM"},
+    {KIND_OTHER, 0, BYTES("P4"), "PBM"},
+    {KIND_OTHER, 0, BYTES("P5"), "PGM"},
+    {KIND_OTHER, 0, BYTES("P7"), "PAM"},
+    {KIND_OTHER, 0, BYTES("PF"), "PFM"},
+    {KIND_OTHER, 0, BYTES("Pf"), "PFM"},
+    {KIND_OTHER, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR"},
+    {KIND_OTHER, 0, BYTES("#?RADIANCE"), "Radiance"},
+    {KIND_OTHER, 0, BYTES("8BPS"), "Photoshop"},
+    {KIND_OTHER, 0, BYTES("qoif"), "QOI"},
+    {KIND_OTHER, 4, BYTES("ftypavif"), "AVIF"},
+    {KIND_OTHER, 4, BYTES("ftyphei"), "HEIF"},
+    {KIND_OTHER, 0, BYTES("<svg"), "SVG"},
 };
 enum { SIGNATURES = sizeof signatures / sizeof *signatures };
 
@@ -81,8 +84,7 @@ bool image_size_check(uint64_t width, uint64_t height, char reason[IMAGE_REASON_
     if (image_size_allowed(width, height))
         return true;
     image_reason(reason, "the picture's size of %llu x %llu is %s", (unsigned long long)width,
-                 (unsigned long long)height,
-                 width && height ? "larger than the limit" : "nothing");
+                 (unsigned long long)height, width && height ? "larger than the limit" : "nothing");
     return false;
 }
 
@@ -176,9 +178,9 @@ bool picture_format_of(const char *path, enum picture_format *format)
         const char *suffix;
         enum picture_format format;
     } suffixes[] = {
-        { ".png", PICTURE_PNG },
-        { ".ppm", PICTURE_PPM },
-        { ".pfm", PICTURE_PFM },
+        {".png", PICTURE_PNG},
+        {".ppm", PICTURE_PPM},
+        {".pfm", PICTURE_PFM},
     };
     const char *slash = strrchr(path, '/');
     const char *dot = strrchr(slash ? slash : path, '.');
@@ -220,7 +222,7 @@ static struct picture *picture_of_image(struct image *i, char reason[IMAGE_REASO
     struct picture *p = NULL;
     if (i->data8) {
         p = mem_zalloc(1, sizeof *p);
-        *p = (struct picture){ .width = i->width, .height = i->height, .bytes = i->data8 };
+        *p = (struct picture){.width = i->width, .height = i->height, .bytes = i->data8};
         i->data8 = NULL;
     } else {
         image_reason(reason, "a picture of 16 bits a channel is not read here; one of 8 is");

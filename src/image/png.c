@@ -18,7 +18,7 @@ static _Noreturn void on_error(png_structp png, png_const_charp message)
 {
     char *reason = png_get_error_ptr(png);
     if (!reason[0])
-        image_reason(reason, "%s", message);
+        image_reason(reason, "the PNG is damaged (libpng: %s)", message);
     png_longjmp(png, 1);
 }
 
@@ -107,7 +107,7 @@ static void decode(struct decoder *d)
 {
     size_t file_bytes = (size_t)(d->end - d->at);
     png_set_read_fn(d->png, d, read_bytes);
-    png_set_user_limits(d->png, IMAGE_SIDE_LIMIT, IMAGE_SIDE_LIMIT);
+    png_set_user_limits(d->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* check_size has its own */
     skip_chunks(d->png);
     png_read_info(d->png, d->info);
     check_size(d, file_bytes);
@@ -115,8 +115,7 @@ static void decode(struct decoder *d)
     int passes = png_set_interlace_handling(d->png);
     png_read_update_info(d->png, d->info);
     d->image = image_new(png_get_image_width(d->png, d->info),
-                         png_get_image_height(d->png, d->info),
-                         png_get_bit_depth(d->png, d->info));
+                         png_get_image_height(d->png, d->info), png_get_bit_depth(d->png, d->info));
     read_rows(d, passes);
     png_read_end(d->png, NULL); /* checks that the file goes on to its end mark */
 }
@@ -131,7 +130,7 @@ static bool decode_guarded(struct decoder *d)
 
 struct image *png_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
 {
-    struct decoder d = { .at = bytes, .end = bytes + n, .reason = reason };
+    struct decoder d = {.at = bytes, .end = bytes + n, .reason = reason};
     reason[0] = 0;
     d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
     if (d.png)
@@ -199,7 +198,7 @@ static bool encode_guarded(struct encoder *e)
 
 void *png_file_encode(const struct picture *p, size_t *n, char reason[IMAGE_REASON_BYTES])
 {
-    struct encoder e = { .picture = p };
+    struct encoder e = {.picture = p};
     reason[0] = 0;
     e.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
     if (e.png)

@@ -54,7 +54,8 @@ static bool is_space(uint8_t c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* Skips white space and comments, then reads a number of at most 7 digits; NULL if there is none. */
+/* Skips white space and comments, then reads a number of at most 7 digits, which is beyond
+ * every limit; NULL if there is none. */
 static const uint8_t *read_field(const uint8_t *p, const uint8_t *end, uint32_t *out)
 {
     while (p < end && (is_space(*p) || *p == '#')) {
@@ -68,7 +69,8 @@ static const uint8_t *read_field(const uint8_t *p, const uint8_t *end, uint32_t 
     *out = 0;
     for (; p < end && *p >= '0' && *p <= '9' && p - digits < 7; p++)
         *out = *out * 10 + (uint32_t)(*p - '0');
-    return p > digits ? p : NULL;
+    bool longer = p < end && *p >= '0' && *p <= '9';
+    return p > digits && !longer ? p : NULL;
 }
 
 struct image *ppm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

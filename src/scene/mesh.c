@@ -75,7 +75,7 @@ const char *openmesh_analyse(const struct vec3 *points, size_t point_count,
     (void)point_count;
     (void)faces;
     (void)face_count;
-    *report = (struct mesh_report){ 0 };
+    *report = (struct mesh_report){0};
     return "this wrt was built without OpenMesh";
 }
 

@@ -32,8 +32,7 @@ const char *off_parse_binary(const uint8_t *bytes, size_t n, struct mesh *m);
 /* A UV list: one `u v` pair a line, blank lines skipped, 3 pairs a face (of struct mesh, so three
  * for each triangle of a fan).  On success *out holds 3 faces pairs, for the caller to free; false
  * after reporting to diag. */
-bool uv_list_parse(const struct source *source, size_t faces, struct vec2 **out,
-                   struct diag *diag);
+bool uv_list_parse(const struct source *source, size_t faces, struct vec2 **out, struct diag *diag);
 
 /* One unit normal a vertex: the normalised sum of the unit normals of its faces; faces of zero
  * area add nothing.  A vertex without any, or whose faces cancel, gets (0, 0, 0).  Vertices are

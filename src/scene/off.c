@@ -28,8 +28,8 @@ struct off {
 
 static struct span span_of(const struct off *o, const char *begin, const char *end)
 {
-    return (struct span){ o->source->base + (uint32_t)(begin - o->source->text),
-                          o->source->base + (uint32_t)(end - o->source->text) };
+    return (struct span){o->source->base + (uint32_t)(begin - o->source->text),
+                         o->source->base + (uint32_t)(end - o->source->text)};
 }
 
 static bool is_blank(char c)
@@ -79,7 +79,7 @@ static struct str word_at(const struct off *o)
     const char *p = o->at;
     while (!ends_word(o, p))
         p++;
-    return (struct str){ o->at, (size_t)(p - o->at) };
+    return (struct str){o->at, (size_t)(p - o->at)};
 }
 
 /* ---- errors ---------------------------------------------------------------------------------- */
@@ -164,11 +164,11 @@ static bool scan_count(struct off *o, uint64_t *out)
 static const struct {
     const char *letters, *meaning;
 } family[] = {
-    { "ST", "texture coordinates" },
-    { "C", "colours" },
-    { "N", "normals" },
-    { "4", "a fourth coordinate" },
-    { "n", "another number of coordinates" },
+    {"ST", "texture coordinates"},
+    {"C", "colours"},
+    {"N", "normals"},
+    {"4", "a fourth coordinate"},
+    {"n", "another number of coordinates"},
 };
 
 /* Takes the letters of the family off the word; *meaning says what the first ones add. */
@@ -191,13 +191,12 @@ static bool refuse_format(struct off *o, struct str word)
 {
     static const struct {
         const char *word, *name;
-    } others[] = { { "ply", "PLY" }, { "solid", "STL" }, { "v", "OBJ" }, { "#VRML", "VRML" } };
+    } others[] = {{"ply", "PLY"}, {"solid", "STL"}, {"v", "OBJ"}, {"#VRML", "VRML"}};
     struct span span = span_of(o, word.at, word.at + word.n);
     const char *meaning;
     if (str_is(strip_family(word, &meaning), "OFF")) {
-        struct diag_entry *e =
-            diag_report(o->diag, DIAG_MESH_FORMAT, span, "%.*s files are not read; plain OFF is",
-                        STR_ARG(word));
+        struct diag_entry *e = diag_report(o->diag, DIAG_MESH_FORMAT, span,
+                                           "%.*s files are not read; plain OFF is", STR_ARG(word));
         diag_note(e, "the header says that each vertex has %s", meaning);
         return false;
     }
@@ -219,7 +218,7 @@ static bool parse_header(struct off *o)
         o->at += 3;
     bool vrml = o->end - o->at >= 5 && memcmp(o->at, "#VRML", 5) == 0;
     if (vrml)
-        return refuse_format(o, (struct str){ o->at, 5 });
+        return refuse_format(o, (struct str){o->at, 5});
     skip_space(o);
     struct str word = word_at(o);
     if (!str_is(word, "OFF")) {
@@ -366,7 +365,7 @@ static bool parse_binary(struct off *o, struct str word)
 
 struct mesh *off_parse(const struct source *source, struct diag *diag)
 {
-    struct off o = { .source = source, .diag = diag };
+    struct off o = {.source = source, .diag = diag};
     o.at = source->text;
     o.end = source->text + source->n;
     o.mesh = mesh_new();

@@ -104,13 +104,13 @@ static bool take_mesh(struct bytes b, struct mesh *m)
 const char *off_parse_binary(const uint8_t *bytes, size_t n, struct mesh *m)
 {
     static const struct layout layouts[] = {
-        { .big_endian = true, .colours = true },
-        { .big_endian = false, .colours = false },
-        { .big_endian = false, .colours = true },
-        { .big_endian = true, .colours = false },
+        {.big_endian = true, .colours = true},
+        {.big_endian = false, .colours = false},
+        {.big_endian = false, .colours = true},
+        {.big_endian = true, .colours = false},
     };
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++)
-        if (take_mesh((struct bytes){ bytes, bytes + n, layouts[i] }, m))
+        if (take_mesh((struct bytes){bytes, bytes + n, layouts[i]}, m))
             return NULL;
     return "this binary OFF file is damaged or ends early";
 }

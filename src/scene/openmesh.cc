@@ -16,7 +16,7 @@ namespace {
 // OpenMesh talks to stderr about every face it refuses.  Its streams are global; they are put back
 // as they were, flushed, for a disabled stream drops what it holds.
 class silence {
-public:
+  public:
     silence()
     {
         for (int i = 0; i < 3; i++) {
@@ -35,7 +35,7 @@ public:
     silence(const silence &) = delete;
     silence &operator=(const silence &) = delete;
 
-private:
+  private:
     static OpenMesh::mostream &stream(int i)
     {
         return i == 0 ? omlog() : i == 1 ? omout() : omerr();
@@ -45,7 +45,7 @@ private:
 
 // Only connectivity is asked for; positions stay in the caller's doubles.
 class analysis {
-public:
+  public:
     analysis(const struct vec3 *points, size_t point_count, size_t face_count)
         : points_(points), used_(point_count)
     {
@@ -64,7 +64,8 @@ public:
             used_[v[i]] = true;
         bool collapsed = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
         struct vec3 unused;
-        bool flat = collapsed || !mesh_face_normal(points_[v[0]], points_[v[1]], points_[v[2]], &unused);
+        bool flat =
+            collapsed || !mesh_face_normal(points_[v[0]], points_[v[1]], points_[v[2]], &unused);
         degenerate_ += flat;
         if (collapsed)
             return;
@@ -86,7 +87,7 @@ public:
         return r;
     }
 
-private:
+  private:
     using half_edges = OpenMesh::TriMesh_ArrayKernelT<>;
     using vertex = half_edges::VertexHandle;
 
@@ -122,7 +123,7 @@ private:
         if (mesh_.add_face(handle(v[0]), handle(v[1]), handle(v[2])).is_valid())
             return;
         // As OpenMesh's own importer does it: vertices of its own, hence neighbours with none.
-        vertex own[3] = { mesh_.new_vertex(), mesh_.new_vertex(), mesh_.new_vertex() };
+        vertex own[3] = {mesh_.new_vertex(), mesh_.new_vertex(), mesh_.new_vertex()};
         mesh_.add_face(own[0], own[1], own[2]);
         non_manifold_++;
     }

@@ -20,8 +20,8 @@ struct uv_reader {
 
 static struct span span_of(const struct uv_reader *r, const char *begin, const char *end)
 {
-    return (struct span){ r->source->base + (uint32_t)(begin - r->source->text),
-                          r->source->base + (uint32_t)(end - r->source->text) };
+    return (struct span){r->source->base + (uint32_t)(begin - r->source->text),
+                         r->source->base + (uint32_t)(end - r->source->text)};
 }
 
 /* One number and the blanks behind it; NULL after reporting. */
@@ -74,7 +74,7 @@ static bool read_lines(struct uv_reader *r)
     while (p < end) {
         const char *newline = memchr(p, '\n', (size_t)(end - p));
         const char *stop = newline ? newline : end;
-        struct str line = str_trim((struct str){ p, (size_t)(stop - p) });
+        struct str line = str_trim((struct str){p, (size_t)(stop - p)});
         if (line.n && !read_line(r, line))
             return false;
         p = newline ? newline + 1 : end;
@@ -91,10 +91,9 @@ static bool report_missing(struct uv_reader *r, const char *how_many)
     return false;
 }
 
-bool uv_list_parse(const struct source *source, size_t faces, struct vec2 **out,
-                   struct diag *diag)
+bool uv_list_parse(const struct source *source, size_t faces, struct vec2 **out, struct diag *diag)
 {
-    struct uv_reader r = { .source = source, .diag = diag };
+    struct uv_reader r = {.source = source, .diag = diag};
     size_t most = ((size_t)source->n + 1) / PAIR_BYTES;
     *out = NULL;
     if (faces > SIZE_MAX / 3 || 3 * faces > most) {

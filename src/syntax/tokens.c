@@ -61,7 +61,10 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     }
     if (xml_close_due(p))
         return TOKEN_XML_CLOSE;
-    int token = xml_scan(value, span, p->scanner);
+    int token;
+    do /* blanks around the root element mean nothing */
+        token = xml_scan(value, span, p->scanner);
+    while (token == TOKEN_XML_TEXT && !p->open.n && !str_trim(value->text).n);
     return xml_balance(p, token, *span, value->text);
 }
 

@@ -45,7 +45,7 @@ static struct image *decode_exactly(const uint8_t *bytes, size_t n, char *reason
  * reason or a picture. */
 static void damage_everywhere(struct file *f)
 {
-    static const uint8_t flips[] = { 0x01, 0x80, 0xFF };
+    static const uint8_t flips[] = {0x01, 0x80, 0xFF};
     char reason[IMAGE_REASON_BYTES];
     for (size_t n = 0; n < f->bytes.n; n++) {
         ck_assert_msg(!decode_exactly(f->bytes.at, n, reason), "a picture from %zu bytes", n);
@@ -69,29 +69,29 @@ static const struct png_kind {
     int colour, depth;
     bool interlaced, transparent; /* transparent: with a tRNS chunk */
 } png_kinds[] = {
-    { "grey 1", PNG_COLOR_TYPE_GRAY, 1, false, false },
-    { "grey 2", PNG_COLOR_TYPE_GRAY, 2, false, false },
-    { "grey 4", PNG_COLOR_TYPE_GRAY, 4, false, false },
-    { "grey 8", PNG_COLOR_TYPE_GRAY, 8, false, false },
-    { "grey 16", PNG_COLOR_TYPE_GRAY, 16, false, false },
-    { "grey 1, tRNS", PNG_COLOR_TYPE_GRAY, 1, false, true },
-    { "grey 16, tRNS", PNG_COLOR_TYPE_GRAY, 16, false, true },
-    { "grey 4, interlaced", PNG_COLOR_TYPE_GRAY, 4, true, false },
-    { "grey alpha 8", PNG_COLOR_TYPE_GRAY_ALPHA, 8, false, false },
-    { "grey alpha 16", PNG_COLOR_TYPE_GRAY_ALPHA, 16, false, false },
-    { "grey alpha 16, interlaced", PNG_COLOR_TYPE_GRAY_ALPHA, 16, true, false },
-    { "palette 1", PNG_COLOR_TYPE_PALETTE, 1, false, false },
-    { "palette 2", PNG_COLOR_TYPE_PALETTE, 2, false, false },
-    { "palette 4, tRNS", PNG_COLOR_TYPE_PALETTE, 4, false, true },
-    { "palette 8", PNG_COLOR_TYPE_PALETTE, 8, false, false },
-    { "palette 8, tRNS, interlaced", PNG_COLOR_TYPE_PALETTE, 8, true, true },
-    { "rgb 8", PNG_COLOR_TYPE_RGB, 8, false, false },
-    { "rgb 8, tRNS", PNG_COLOR_TYPE_RGB, 8, false, true },
-    { "rgb 8, interlaced", PNG_COLOR_TYPE_RGB, 8, true, false },
-    { "rgb 16", PNG_COLOR_TYPE_RGB, 16, false, false },
-    { "rgba 8", PNG_COLOR_TYPE_RGBA, 8, false, false },
-    { "rgba 8, interlaced", PNG_COLOR_TYPE_RGBA, 8, true, false },
-    { "rgba 16", PNG_COLOR_TYPE_RGBA, 16, false, false },
+    {"grey 1", PNG_COLOR_TYPE_GRAY, 1, false, false},
+    {"grey 2", PNG_COLOR_TYPE_GRAY, 2, false, false},
+    {"grey 4", PNG_COLOR_TYPE_GRAY, 4, false, false},
+    {"grey 8", PNG_COLOR_TYPE_GRAY, 8, false, false},
+    {"grey 16", PNG_COLOR_TYPE_GRAY, 16, false, false},
+    {"grey 1, tRNS", PNG_COLOR_TYPE_GRAY, 1, false, true},
+    {"grey 16, tRNS", PNG_COLOR_TYPE_GRAY, 16, false, true},
+    {"grey 4, interlaced", PNG_COLOR_TYPE_GRAY, 4, true, false},
+    {"grey alpha 8", PNG_COLOR_TYPE_GRAY_ALPHA, 8, false, false},
+    {"grey alpha 16", PNG_COLOR_TYPE_GRAY_ALPHA, 16, false, false},
+    {"grey alpha 16, interlaced", PNG_COLOR_TYPE_GRAY_ALPHA, 16, true, false},
+    {"palette 1", PNG_COLOR_TYPE_PALETTE, 1, false, false},
+    {"palette 2", PNG_COLOR_TYPE_PALETTE, 2, false, false},
+    {"palette 4, tRNS", PNG_COLOR_TYPE_PALETTE, 4, false, true},
+    {"palette 8", PNG_COLOR_TYPE_PALETTE, 8, false, false},
+    {"palette 8, tRNS, interlaced", PNG_COLOR_TYPE_PALETTE, 8, true, true},
+    {"rgb 8", PNG_COLOR_TYPE_RGB, 8, false, false},
+    {"rgb 8, tRNS", PNG_COLOR_TYPE_RGB, 8, false, true},
+    {"rgb 8, interlaced", PNG_COLOR_TYPE_RGB, 8, true, false},
+    {"rgb 16", PNG_COLOR_TYPE_RGB, 16, false, false},
+    {"rgba 8", PNG_COLOR_TYPE_RGBA, 8, false, false},
+    {"rgba 8, interlaced", PNG_COLOR_TYPE_RGBA, 8, true, false},
+    {"rgba 16", PNG_COLOR_TYPE_RGBA, 16, false, false},
 };
 
 enum { WIDTH = 13, HEIGHT = 11, CHANNELS = 4 };
@@ -119,7 +119,7 @@ static unsigned png_sample(const struct png_kind *k, int x, int y, int channel)
 
 static png_color palette_colour(unsigned i)
 {
-    return (png_color){ (png_byte)(i * 37), (png_byte)(255 - i), (png_byte)(i * i) };
+    return (png_color){(png_byte)(i * 37), (png_byte)(255 - i), (png_byte)(i * i)};
 }
 
 /* The channel that must come out, 16 bits if the file has 16. */
@@ -160,7 +160,7 @@ static void png_set_kind(png_structp png, png_infop info, const struct png_kind 
 {
     png_byte alpha[256];
     png_color palette[256];
-    png_color_16 key = { 0 }; /* the colour of pixel 0, 0 is the transparent one */
+    png_color_16 key = {0}; /* the colour of pixel 0, 0 is the transparent one */
     png_set_IHDR(png, info, WIDTH, HEIGHT, k->depth, k->colour,
                  k->interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -181,7 +181,7 @@ static void png_set_kind(png_structp png, png_infop info, const struct png_kind 
 
 static struct file png_make(const struct png_kind *k)
 {
-    struct file f = { 0 };
+    struct file f = {0};
     uint8_t rows[HEIGHT][WIDTH * CHANNELS * 2];
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png_create_info_struct(png);
@@ -252,13 +252,13 @@ static const struct {
     uint32_t width, height;
     const char *reason;
 } png_sizes[] = {
-    { 1 << 14, 1 << 14, "ends early" },
-    { 1 << 20, 1 << 8, "ends early" },
-    { 1 << 20, 1 << 20, "larger than the limit" },
-    { (1 << 20) + 1, 1, "limit" },
-    { INT32_MAX, INT32_MAX, "limit" },
-    { UINT32_MAX, 1, "" },
-    { 0, 1, "" },
+    {1 << 14, 1 << 14, "ends early"},
+    {1 << 20, 1 << 8, "ends early"},
+    {1 << 20, 1 << 20, "larger than the limit"},
+    {(1 << 20) + 1, 1, "limit"},
+    {INT32_MAX, INT32_MAX, "limit"},
+    {UINT32_MAX, 1, ""},
+    {0, 1, ""},
 };
 
 /* The header's size and checksum sit at fixed places behind the signature. */
@@ -286,12 +286,12 @@ static const struct jpeg_kind {
     int sampling;               /* of the first component, horizontal and vertical */
     bool progressive;
 } jpeg_kinds[] = {
-    { "grey", JCS_GRAYSCALE, JCS_GRAYSCALE, 1, false },
-    { "YCbCr", JCS_RGB, JCS_YCbCr, 1, false },
-    { "YCbCr, 4:2:0", JCS_RGB, JCS_YCbCr, 2, false },
-    { "YCbCr, 4:2:0, progressive", JCS_RGB, JCS_YCbCr, 2, true },
-    { "grey, progressive", JCS_GRAYSCALE, JCS_GRAYSCALE, 1, true },
-    { "RGB", JCS_RGB, JCS_RGB, 1, false },
+    {"grey", JCS_GRAYSCALE, JCS_GRAYSCALE, 1, false},
+    {"YCbCr", JCS_RGB, JCS_YCbCr, 1, false},
+    {"YCbCr, 4:2:0", JCS_RGB, JCS_YCbCr, 2, false},
+    {"YCbCr, 4:2:0, progressive", JCS_RGB, JCS_YCbCr, 2, true},
+    {"grey, progressive", JCS_GRAYSCALE, JCS_GRAYSCALE, 1, true},
+    {"RGB", JCS_RGB, JCS_RGB, 1, false},
 };
 
 static int jpeg_channels(J_COLOR_SPACE space)
@@ -309,7 +309,7 @@ static struct file jpeg_make(const struct jpeg_kind *k, jpeg_scan_info *scans, i
 {
     struct jpeg_compress_struct jpeg;
     struct jpeg_error_mgr errors;
-    struct file f = { 0 };
+    struct file f = {0};
     unsigned char *out = NULL;
     unsigned long n = 0;
     int channels = jpeg_channels(k->from);
@@ -332,7 +332,7 @@ static struct file jpeg_make(const struct jpeg_kind *k, jpeg_scan_info *scans, i
     }
     jpeg_start_compress(&jpeg, TRUE);
     for (int y = 0; y < HEIGHT; y++) {
-        JSAMPLE row[WIDTH * CHANNELS], *rows[] = { row };
+        JSAMPLE row[WIDTH * CHANNELS], *rows[] = {row};
         for (int i = 0; i < WIDTH * channels; i++)
             row[i] = (JSAMPLE)smooth_sample(i / channels, y, i % channels);
         jpeg_write_scanlines(&jpeg, rows, 1);
@@ -375,8 +375,8 @@ END_TEST
 
 START_TEST(jpeg_cmyk_is_refused)
 {
-    static const J_COLOR_SPACE stored[] = { JCS_CMYK, JCS_YCCK };
-    struct jpeg_kind k = { "CMYK", JCS_CMYK, stored[_i], 1, false };
+    static const J_COLOR_SPACE stored[] = {JCS_CMYK, JCS_YCCK};
+    struct jpeg_kind k = {"CMYK", JCS_CMYK, stored[_i], 1, false};
     struct file f = jpeg_make(&k, NULL, 0);
     char reason[IMAGE_REASON_BYTES];
     ck_assert_ptr_null(decode_exactly(f.bytes.at, f.bytes.n, reason));
@@ -389,12 +389,12 @@ END_TEST
 START_TEST(jpeg_of_many_scans_is_refused)
 {
     enum { COMPONENTS = 3, FREQUENCIES = 64 };
-    jpeg_scan_info scans[COMPONENTS * FREQUENCIES] = { 0 };
+    jpeg_scan_info scans[COMPONENTS * FREQUENCIES] = {0};
     for (int i = 0; i < COMPONENTS * FREQUENCIES; i++)
-        scans[i] = (jpeg_scan_info){ .comps_in_scan = 1,
-                                     .component_index = { i / FREQUENCIES },
-                                     .Ss = i % FREQUENCIES,
-                                     .Se = i % FREQUENCIES };
+        scans[i] = (jpeg_scan_info){.comps_in_scan = 1,
+                                    .component_index = {i / FREQUENCIES},
+                                    .Ss = i % FREQUENCIES,
+                                    .Se = i % FREQUENCIES};
     struct file f = jpeg_make(&jpeg_kinds[1], scans, COMPONENTS * FREQUENCIES);
     char reason[IMAGE_REASON_BYTES];
     ck_assert_ptr_null(decode_exactly(f.bytes.at, f.bytes.n, reason));
@@ -440,20 +440,20 @@ static const struct {
     size_t n;
     const char *reason; /* how it begins */
 } refused[] = {
-    { "", 0, "the file is empty" },
-    { "GIF89a....", 10, "GIF pictures are not read as textures; PNG and JPEG are" },
-    { "GIF87a....", 10, "GIF pictures" },
-    { "BM........", 10, "BMP pictures" },
-    { "II*\0......", 10, "TIFF pictures" },
-    { "MM\0*......", 10, "TIFF pictures" },
-    { "RIFF1234WEBPVP8 ", 16, "WebP pictures" },
-    { "P6\n1 1\n255\n...", 14, "PPM pictures" },
-    { "P5\n1 1\n255\n.", 12, "PGM pictures" },
-    { "PF\n1 1\n-1\n", 10, "PFM pictures" },
-    { "hello", 5, "not a PNG or JPEG picture" },
-    { "\0", 1, "not a PNG or JPEG picture" },
-    { "\x89PNG\r\n\x1a\n", 8, "the picture ends early" },
-    { "\x89PNG\n\x1a\n", 7, "not a PNG or JPEG picture" },
+    {"", 0, "the file is empty"},
+    {"GIF89a....", 10, "GIF pictures are not read as textures; PNG and JPEG are"},
+    {"GIF87a....", 10, "GIF pictures"},
+    {"BM........", 10, "BMP pictures"},
+    {"II*\0......", 10, "TIFF pictures"},
+    {"MM\0*......", 10, "TIFF pictures"},
+    {"RIFF1234WEBPVP8 ", 16, "WebP pictures"},
+    {"P6\n1 1\n255\n...", 14, "PPM pictures"},
+    {"P5\n1 1\n255\n.", 12, "PGM pictures"},
+    {"PF\n1 1\n-1\n", 10, "PFM pictures"},
+    {"hello", 5, "not a PNG or JPEG picture"},
+    {"\0", 1, "not a PNG or JPEG picture"},
+    {"\x89PNG\r\n\x1a\n", 8, "the picture ends early"},
+    {"\x89PNG\n\x1a\n", 7, "not a PNG or JPEG picture"},
 };
 
 START_TEST(other_format_is_refused)
@@ -471,9 +471,21 @@ static const struct {
     double channel;
     uint8_t byte;
 } roundings[] = {
-    { 0, 0 },           { -0.0, 0 },      { -1, 0 },        { NAN, 0 },          { INFINITY, 255 },
-    { -INFINITY, 0 },   { 1, 255 },       { 2, 255 },       { 0.9 / 255, 1 },    { 0.89 / 255, 0 },
-    { 254.95 / 255, 255 }, { 254.85 / 255, 254 }, { 0.5, 127 }, { 1e-320, 0 },   { 1e300, 255 },
+    {0, 0},
+    {-0.0, 0},
+    {-1, 0},
+    {NAN, 0},
+    {INFINITY, 255},
+    {-INFINITY, 0},
+    {1, 255},
+    {2, 255},
+    {0.9 / 255, 1},
+    {0.89 / 255, 0},
+    {254.95 / 255, 255},
+    {254.85 / 255, 254},
+    {0.5, 127},
+    {1e-320, 0},
+    {1e300, 255},
 };
 
 START_TEST(colour_is_rounded)
@@ -492,16 +504,16 @@ static const struct {
     uint64_t width, height;
     bool allowed;
 } sizes[] = {
-    { 1, 1, true },
-    { 1 << 20, 1, true },
-    { 1 << 14, 1 << 14, true },
-    { 1 << 20, 1 << 8, true },
-    { 0, 1, false },
-    { 1, 0, false },
-    { (1 << 20) + 1, 1, false },
-    { (1 << 14) + 1, 1 << 14, false },
-    { UINT64_MAX, UINT64_MAX, false },
-    { UINT64_C(1) << 32, UINT64_C(1) << 32, false },
+    {1, 1, true},
+    {1 << 20, 1, true},
+    {1 << 14, 1 << 14, true},
+    {1 << 20, 1 << 8, true},
+    {0, 1, false},
+    {1, 0, false},
+    {(1 << 20) + 1, 1, false},
+    {(1 << 14) + 1, 1 << 14, false},
+    {UINT64_MAX, UINT64_MAX, false},
+    {UINT64_C(1) << 32, UINT64_C(1) << 32, false},
 };
 
 START_TEST(size_is_limited)
@@ -514,10 +526,16 @@ static const struct {
     const char *path;
     int format; /* -1: none */
 } formats[] = {
-    { "a.png", PICTURE_PNG }, { "a.PPM", PICTURE_PPM }, { "dir.x/a.Pfm", PICTURE_PFM },
-    { "a", PICTURE_PNG },     { "dir.ppm/a", PICTURE_PNG }, { "-", PICTURE_PNG },
-    { "a.jpg", -1 },          { "a.", -1 },             { "a.png.gz", -1 },
-    { "a.ppm.png", PICTURE_PNG },
+    {"a.png", PICTURE_PNG},
+    {"a.PPM", PICTURE_PPM},
+    {"dir.x/a.Pfm", PICTURE_PFM},
+    {"a", PICTURE_PNG},
+    {"dir.ppm/a", PICTURE_PNG},
+    {"-", PICTURE_PNG},
+    {"a.jpg", -1},
+    {"a.", -1},
+    {"a.png.gz", -1},
+    {"a.ppm.png", PICTURE_PNG},
 };
 
 START_TEST(suffix_names_format)
@@ -541,9 +559,8 @@ static const struct {
     uint32_t width, height;
     enum picture_format format;
 } trips[] = {
-    { 1, 1, PICTURE_PNG },   { 13, 7, PICTURE_PNG },   { 1, 300, PICTURE_PNG },
-    { 400, 1, PICTURE_PNG }, { 200, 100, PICTURE_PNG }, { 1, 1, PICTURE_PPM },
-    { 13, 7, PICTURE_PPM },
+    {1, 1, PICTURE_PNG},     {13, 7, PICTURE_PNG}, {1, 300, PICTURE_PNG}, {400, 1, PICTURE_PNG},
+    {200, 100, PICTURE_PNG}, {1, 1, PICTURE_PPM},  {13, 7, PICTURE_PPM},
 };
 
 START_TEST(picture_survives_round_trip)
@@ -575,7 +592,7 @@ END_TEST
 START_TEST(pfm_is_little_endian_bottom_up)
 {
     static const char wanted[] = "PF\n1 2\n-1.0\n"
-                                 "\0\0\x80\x3f\0\0\0\xc0\0\0\0\0"  /* bottom: 1 -2 0 */
+                                 "\0\0\x80\x3f\0\0\0\xc0\0\0\0\0"      /* bottom: 1 -2 0 */
                                  "\0\0\x80\x7f\0\0\0\x3f\0\0\x80\x3e"; /* top: inf 0.5 0.25 */
     struct picture *p = picture_new(1, 2, true);
     char reason[IMAGE_REASON_BYTES];
@@ -600,22 +617,22 @@ static const struct {
     const char *text;
     const char *reason; /* NULL: read */
 } ppms[] = {
-    { "P6\n1 1\n255\nabc", NULL },
-    { "P6 1 1 255 abc", NULL },
-    { "P6\n# made by hand\n1 # wide\n1\n255\nabc", NULL },
-    { "P6\n1 1\n255\nab", "the picture ends early" },
-    { "P6\n1 1\n255\nabcd", "more bytes follow the picture" },
-    { "P6\n1 1\n65535\nabcdef", "a PPM with a largest value of 65535 is not read; one with 255 is" },
-    { "P6\n0 1\n255\n", "the picture's size of 0 x 1 is nothing" },
-    { "P6\n9999999 1\n255\n", "the picture's size of 9999999 x 1 is larger than the limit" },
-    { "P6\n99999999999 1\n255\n", "the PPM header is damaged" },
-    { "P6\n1 1\n255", "the PPM header is damaged" },
-    { "P6\n1 -1\n255\n", "the PPM header is damaged" },
-    { "P6", "the PPM header is damaged" },
-    { "P6#", "the PPM header is damaged" },
-    { "P3\n1 1\n255\n1 2 3", "text PPM pictures are not read here; PNG and binary PPM are" },
-    { "hello", "not a PNG or PPM picture" },
-    { "", "the file is empty" },
+    {"P6\n1 1\n255\nabc", NULL},
+    {"P6 1 1 255 abc", NULL},
+    {"P6\n# made by hand\n1 # wide\n1\n255\nabc", NULL},
+    {"P6\n1 1\n255\nab", "the picture ends early"},
+    {"P6\n1 1\n255\nabcd", "more bytes follow the picture"},
+    {"P6\n1 1\n65535\nabcdef", "a PPM with a largest value of 65535 is not read; one with 255 is"},
+    {"P6\n0 1\n255\n", "the picture's size of 0 x 1 is nothing"},
+    {"P6\n9999999 1\n255\n", "the picture's size of 9999999 x 1 is larger than the limit"},
+    {"P6\n99999999999 1\n255\n", "the PPM header is damaged"},
+    {"P6\n1 1\n255", "the PPM header is damaged"},
+    {"P6\n1 -1\n255\n", "the PPM header is damaged"},
+    {"P6", "the PPM header is damaged"},
+    {"P6#", "the PPM header is damaged"},
+    {"P3\n1 1\n255\n1 2 3", "text PPM pictures are not read here; PNG and binary PPM are"},
+    {"hello", "not a PNG or PPM picture"},
+    {"", "the file is empty"},
 };
 
 START_TEST(ppm_is_read_or_refused)
