@@ -36,6 +36,10 @@ int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p);
 #define XML_DECL int xml_scan(SCENE_STYPE *value, struct span *span, void *yyscanner)
 NATIVE_DECL;
 XML_DECL;
+
+/* flex ends the current token in the text with a NUL; these put the text's own byte back. */
+void native_release(void *yyscanner);
+void xml_release(void *yyscanner);
 }
 
 %code top {
@@ -114,7 +118,7 @@ statement:
 
 block:
   LBRACE members RBRACE        { $$ = $members; }
-| LBRACE members error RBRACE  { $$ = $members; }
+| LBRACE members error RBRACE  { $$ = ast_append($members, ast_node(p->ast, AST_ERROR, @error)); }
 ;
 
 members:
@@ -122,7 +126,8 @@ members:
 | members[list] member      { $$ = ast_append($list, $member); }
 | members[list] COMMA       { $$ = $list; }
 | members[list] SEMICOLON   { $$ = $list; }
-| members[list] error member { $$ = ast_append($list, $member); }
+| members[list] error member
+    { $$ = ast_append(ast_append($list, ast_node(p->ast, AST_ERROR, @error)), $member); }
 ;
 
 member:
@@ -158,11 +163,9 @@ expression:
 | LPAREN expression RPAREN            { $$ = $2; }
 | LPAREN components[list] COMMA expression[last] RPAREN
     { $$ = ast_holding(ast_node(p->ast, AST_VECTOR, @$), ast_append($list, $last)); }
-| LPAREN error RPAREN                 { $$ = ast_node(p->ast, AST_ERROR, @$); }
 | LBRACKET values RBRACKET            { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
 | LBRACKET values COMMA RBRACKET      { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
 | LBRACKET RBRACKET                   { $$ = ast_node(p->ast, AST_LIST, @$); }
-| LBRACKET error RBRACKET             { $$ = ast_node(p->ast, AST_ERROR, @$); }
 ;
 
 components:

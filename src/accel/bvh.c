@@ -10,6 +10,7 @@ enum {
     BINS = 16,
     LEAF_LIMIT = 4,  /* larger runs are always split */
     SAH_DEPTH = 60,  /* deeper down runs are halved: at most 30 levels more */
+    TREE_LEAST = 5,  /* fewer primitives are tried one after another */
 };
 
 /* Cost of visiting a node over that of testing a primitive. */
@@ -18,7 +19,7 @@ enum {
 struct builder {
     struct box *boxes;    /* by primitive */
     struct vec3 *centers; /* of the boxes */
-    uint32_t *order;
+    uint32_t *order;      /* primitives; runs of it become nodes */
     struct bvh_node *nodes;
     uint32_t node_count;
 };
@@ -166,44 +167,49 @@ static void build_child(struct builder *w, uint32_t parent, int child, uint32_t 
     build_child(w, node, 1, middle, end, depth + 1);
 }
 
-static void build_tree(struct accel *a)
+static void build_nodes(struct builder *w, uint32_t n)
 {
-    uint32_t n = (uint32_t)a->geometry->prims.n;
-    struct builder w = { .boxes = mem_alloc(n, sizeof *w.boxes),
-                         .centers = mem_alloc(n, sizeof *w.centers),
-                         .order = mem_alloc(n, sizeof *w.order),
-                         .nodes = mem_alloc_aligned(n + 1, sizeof *w.nodes),
-                         .node_count = 1 };
-    for (uint32_t i = 0; i < n; i++) {
-        w.order[i] = i;
-        w.boxes[i] = geometry_prim_bounds(a->geometry, i);
-        w.centers[i] = box_center(w.boxes[i]);
-    }
-    struct box all = run_box(&w, 0, n);
-    double low = vec3_largest(all.lo), high = vec3_largest(all.hi);
-    a->reach = low > high ? low : high;
-    uint32_t middle = n > 1 ? choose_split(&w, all, 0, n, 0) : n;
-    build_child(&w, 0, 0, 0, middle, 1);
-    set_child(&w.nodes[0], 1, box_empty(), 0, 0);
+    struct box all = run_box(w, 0, n);
+    w->nodes = mem_alloc_aligned(n + 1, sizeof *w->nodes);
+    w->node_count = 1;
+    uint32_t middle = n > 1 ? choose_split(w, all, 0, n, 0) : n;
+    build_child(w, 0, 0, 0, middle, 1);
+    set_child(&w->nodes[0], 1, box_empty(), 0, 0);
     if (middle < n)
-        build_child(&w, 0, 1, middle, n, 1);
-    free(w.boxes);
-    free(w.centers);
-    a->nodes = w.nodes;
-    a->node_count = w.node_count;
-    a->order = w.order;
+        build_child(w, 0, 1, middle, n, 1);
 }
 
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
 {
-    *a = (struct accel){ .geometry = geometry };
-    if (!brute_force && geometry->prims.n > 0)
-        build_tree(a);
+    uint32_t n = (uint32_t)geometry->prims.n;
+    struct builder w = { .boxes = mem_alloc(n, sizeof *w.boxes),
+                         .centers = mem_alloc(n, sizeof *w.centers),
+                         .order = mem_alloc(n, sizeof *w.order) };
+    struct box all = box_empty();
+    for (uint32_t i = 0; i < n; i++) {
+        w.order[i] = i;
+        w.boxes[i] = geometry_prim_bounds(geometry, i);
+        w.centers[i] = box_center(w.boxes[i]);
+        all = box_join(all, w.boxes[i]);
+    }
+    if (!brute_force && n >= TREE_LEAST)
+        build_nodes(&w, n);
+    *a = (struct accel){ .geometry = geometry,
+                         .targets = mem_alloc(n, sizeof *a->targets),
+                         .target_count = n,
+                         .nodes = w.nodes,
+                         .node_count = w.node_count,
+                         .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0 };
+    for (uint32_t i = 0; i < n; i++)
+        a->targets[i] = target_of(geometry, w.order[i]);
+    free(w.boxes);
+    free(w.centers);
+    free(w.order);
 }
 
 void accel_free(struct accel *a)
 {
     free(a->nodes);
-    free(a->order);
+    free(a->targets);
     *a = (struct accel){ 0 };
 }

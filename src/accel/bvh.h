@@ -3,13 +3,13 @@
 #ifndef WRT_ACCEL_BVH_H
 #define WRT_ACCEL_BVH_H
 
-#include "scene/geometry.h"
+#include "scene/intersect.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 /* An inner node holds the boxes of its two children, so that children are tested before they are
- * fetched.  A child is a node, or a leaf: a run of `order`. */
+ * fetched.  A child is a node, or a leaf: a run of `targets`. */
 struct bvh_node {
     double plane[2][2][3]; /* of child, lower or upper, axis */
     uint32_t first[2];     /* node number, or start of the run */
@@ -18,10 +18,11 @@ struct bvh_node {
 
 struct accel {
     const struct geometry *geometry; /* borrowed */
-    struct bvh_node *nodes;          /* root first; NULL: every primitive is tried */
-    uint32_t *order;                 /* primitive numbers, leaf by leaf */
+    struct target *targets;          /* all primitives, leaf by leaf */
+    uint32_t target_count;
+    struct bvh_node *nodes; /* root first; NULL: every primitive is tried */
     uint32_t node_count;
-    double reach;                    /* largest |coordinate| of the geometry's bounds */
+    double reach; /* largest |coordinate| of the geometry's bounds */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */
@@ -34,7 +35,7 @@ void accel_free(struct accel *a);
 /* The nearest hit of the ray; *hit is filled in either case (hit_none when false). */
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit);
 
-/* Whether anything is hit within the ray's t_max; *occluder says what. */
-bool accel_any(const struct accel *a, const struct ray *ray, uint32_t *occluder);
+/* Whether anything is hit within the ray's t_max. */
+bool accel_any(const struct accel *a, const struct ray *ray);
 
 #endif

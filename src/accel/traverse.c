@@ -9,20 +9,16 @@ struct walk {
     int negative[3]; /* 1 where the ray runs down the axis: its near plane is the upper one */
 };
 
-static struct walk walk_along(const struct accel *a, const struct ray *ray,
-                              const struct ray_frame *frame)
+static struct walk walk_along(const struct accel *a, const struct ray *ray, double origin_reach)
 {
-    double padding = BOX_PADDING * (a->reach + vec3_largest(ray->origin));
-    struct walk w;
-    for (int axis = 0; axis < 3; axis++) {
-        double origin = vec3_at(ray->origin, axis), inverse = vec3_at(frame->inverse, axis);
-        double forwards = copysign(padding, inverse);
-        w.near_origin[axis] = origin + forwards;
-        w.far_origin[axis] = origin - forwards;
-        w.inverse[axis] = inverse;
-        w.negative[axis] = inverse < 0;
-    }
-    return w;
+    struct vec3 o = ray->origin, d = ray->direction;
+    double padding = BOX_PADDING * (a->reach + origin_reach), largest = vec3_largest(d);
+    double x = copysign(padding, d.x), y = copysign(padding, d.y), z = copysign(padding, d.z);
+    return (struct walk){ { o.x + x, o.y + y, o.z + z },
+                          { o.x - x, o.y - y, o.z - z },
+                          { ray_inverse(d.x, largest), ray_inverse(d.y, largest),
+                            ray_inverse(d.z, largest) },
+                          { signbit(d.x) != 0, signbit(d.y) != 0, signbit(d.z) != 0 } };
 }
 
 /* Where the ray enters the box, or infinity when it misses it before t_max. */
@@ -39,9 +35,24 @@ static inline double enter_box(const struct walk *w, const double plane[2][3], d
     return near <= far ? near : INFINITY;
 }
 
-static inline bool skipped(const struct geometry *g, uint32_t prim, const struct ray *ray)
+static inline bool is_skipped(const struct geometry *g, uint32_t prim, const struct ray *ray)
 {
     return ray->surface != SURFACE_NONE && g->prims.at[prim].surface != ray->surface;
+}
+
+/* The best hit of a run of targets; with any_hit, the first found ends the search. */
+static inline bool try_run(const struct accel *a, uint32_t first, uint32_t count,
+                           const struct ray *ray, const struct ray_frame *frame, bool any_hit,
+                           struct hit *hit)
+{
+    for (uint32_t i = first; i < first + count; i++) {
+        struct target target = a->targets[i];
+        if (is_skipped(a->geometry, target.prim, ray))
+            continue;
+        if (target_intersect(a->geometry, target, ray, frame, hit) && any_hit)
+            return true;
+    }
+    return false;
 }
 
 struct pending {
@@ -49,10 +60,12 @@ struct pending {
     uint32_t node;
 };
 
-static bool closest_in_tree(const struct accel *a, const struct ray *ray, struct hit *hit)
+/* Nearer child first; a box is left out only when it starts behind the best hit, not when it starts
+ * at it: an equal hit of a lower number may be inside. */
+static void closest_in_tree(const struct accel *a, const struct ray *ray,
+                            const struct ray_frame *frame, struct hit *hit)
 {
-    struct ray_frame frame = ray_frame_of(ray->direction);
-    struct walk walk = walk_along(a, ray, &frame);
+    struct walk walk = walk_along(a, ray, frame->reach);
     struct pending stack[BVH_DEPTH_LIMIT];
     int depth = 0;
     uint32_t at = 0;
@@ -60,68 +73,50 @@ static bool closest_in_tree(const struct accel *a, const struct ray *ray, struct
         const struct bvh_node *node = &a->nodes[at];
         double enter[2] = { enter_box(&walk, node->plane[0], hit->t),
                             enter_box(&walk, node->plane[1], hit->t) };
-        int first = enter[1] < enter[0];
-        struct pending next[2];
-        int nexts = 0;
+        int nearer = enter[1] < enter[0];
+        bool descended = false;
         for (int k = 0; k < 2; k++) {
-            int child = first ^ k;
+            int child = nearer ^ k;
             if (!(enter[child] <= hit->t))
                 continue;
-            uint32_t begin = node->first[child], count = node->count[child];
-            if (count == 0) {
-                next[nexts++] = (struct pending){ enter[child], begin };
-                continue;
+            if (node->count[child] > 0) {
+                try_run(a, node->first[child], node->count[child], ray, frame, false, hit);
+            } else if (!descended) {
+                at = node->first[child];
+                descended = true;
+            } else {
+                stack[depth++] = (struct pending){ enter[child], node->first[child] };
             }
-            for (uint32_t i = begin; i < begin + count; i++)
-                if (!skipped(a->geometry, a->order[i], ray))
-                    geometry_intersect(a->geometry, a->order[i], ray, &frame, hit);
         }
-        if (nexts == 2)
-            stack[depth++] = next[1];
-        if (nexts > 0) {
-            at = next[0].node;
+        if (descended)
             continue;
-        }
         do {
             if (depth == 0)
-                return hit->prim != PRIM_NONE;
+                return;
             depth--;
         } while (stack[depth].enter > hit->t);
         at = stack[depth].node;
     }
 }
 
-static bool any_in_tree(const struct accel *a, const struct ray *ray, struct hit *hit)
+static bool any_in_tree(const struct accel *a, const struct ray *ray,
+                        const struct ray_frame *frame, struct hit *hit)
 {
-    struct ray_frame frame = ray_frame_of(ray->direction);
-    struct walk walk = walk_along(a, ray, &frame);
-    uint32_t stack[BVH_DEPTH_LIMIT + 1];
-    int depth = 0;
-    stack[depth++] = 0;
+    struct walk walk = walk_along(a, ray, frame->reach);
+    uint32_t stack[BVH_DEPTH_LIMIT + 1] = { 0 };
+    int depth = 1;
     while (depth > 0) {
         const struct bvh_node *node = &a->nodes[stack[--depth]];
         for (int child = 0; child < 2; child++) {
             if (enter_box(&walk, node->plane[child], ray->t_max) == INFINITY)
                 continue;
-            uint32_t begin = node->first[child], count = node->count[child];
-            if (count == 0)
-                stack[depth++] = begin;
-            for (uint32_t i = begin; i < begin + count; i++)
-                if (!skipped(a->geometry, a->order[i], ray) &&
-                    geometry_intersect(a->geometry, a->order[i], ray, &frame, hit))
-                    return true;
+            if (node->count[child] == 0)
+                stack[depth++] = node->first[child];
+            else if (try_run(a, node->first[child], node->count[child], ray, frame, true, hit))
+                return true;
         }
     }
     return false;
-}
-
-static bool closest_of_all(const struct accel *a, const struct ray *ray, struct hit *hit)
-{
-    struct ray_frame frame = ray_frame_of(ray->direction);
-    for (uint32_t i = 0; i < a->geometry->prims.n; i++)
-        if (!skipped(a->geometry, i, ray))
-            geometry_intersect(a->geometry, i, ray, &frame, hit);
-    return hit->prim != PRIM_NONE;
 }
 
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit)
@@ -129,15 +124,21 @@ bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit
     *hit = hit_none(ray->t_max);
     if (!ray_has_direction(ray))
         return false;
-    return a->nodes ? closest_in_tree(a, ray, hit) : closest_of_all(a, ray, hit);
+    struct ray_frame frame = ray_frame_of(ray);
+    if (a->nodes)
+        closest_in_tree(a, ray, &frame, hit);
+    else
+        try_run(a, 0, a->target_count, ray, &frame, false, hit);
+    return hit->prim != PRIM_NONE;
 }
 
-bool accel_any(const struct accel *a, const struct ray *ray, uint32_t *occluder)
+bool accel_any(const struct accel *a, const struct ray *ray)
 {
-    struct hit hit = hit_none(ray->t_max);
     if (!ray_has_direction(ray))
         return false;
-    bool blocked = a->nodes ? any_in_tree(a, ray, &hit) : closest_of_all(a, ray, &hit);
-    *occluder = hit.prim;
-    return blocked;
+    struct hit hit = hit_none(ray->t_max);
+    struct ray_frame frame = ray_frame_of(ray);
+    if (a->nodes)
+        return any_in_tree(a, ray, &frame, &hit);
+    return try_run(a, 0, a->target_count, ray, &frame, true, &hit);
 }

@@ -8,9 +8,10 @@
 #include "base/file.h"
 #include "base/thread.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 /* One run of the command. */
 struct run {
@@ -72,7 +73,10 @@ static const char *output_obstacle(const char *path)
     char *folder = mem_alloc(n + 1, 1);
     memcpy(folder, path, n);
     folder[n] = 0;
-    const char *reason = access(folder, F_OK) == 0 ? NULL : "the folder does not exist";
+    struct stat st;
+    const char *reason = stat(folder, &st) != 0  ? strerror(errno)
+                         : S_ISDIR(st.st_mode) ? NULL
+                                               : strerror(ENOTDIR);
     free(folder);
     return reason;
 }

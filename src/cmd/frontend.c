@@ -68,7 +68,7 @@ static struct eval_define *parse_defines(struct frontend *f, const struct option
  * shows most of its statements. */
 static bool may_evaluate(const struct frontend *f, bool parsed)
 {
-    return parsed || !f->ast.xml;
+    return parsed || (!f->ast.xml && f->ast.statements);
 }
 
 /* After syntax errors nothing is said to be missing: it may stand where the text did not parse. */

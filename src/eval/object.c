@@ -105,7 +105,7 @@ void report_unknown_kind(struct eval *e, enum schema_group group, struct str nam
     for (int k = 0; k < SCHEMA_KINDS && at < sizeof list; k++) {
         if (schema_kinds[k].group != group)
             continue;
-        int put = snprintf(list + at, sizeof list - at, " %s",
+        int put = snprintf(list + at, sizeof list - at, "%s%s", at ? ", " : " ",
                            xml ? schema_kinds[k].xml : schema_kinds[k].native);
         at += put > 0 ? (size_t)put : 0;
     }

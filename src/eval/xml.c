@@ -17,6 +17,7 @@ enum { ATTRIBUTES = sizeof attribute_names / sizeof *attribute_names };
 /* The attributes of an element: the node of each, or NULL. */
 struct attributes {
     const struct ast_node *class, *id, *ref, *model;
+    bool broken; /* others were reported */
 };
 
 static const struct ast_node **attribute_slot(struct attributes *a, enum attribute bit)
@@ -64,6 +65,7 @@ static struct attributes take_attributes(struct eval *e, const struct ast_node *
             i++;
         if (i == ATTRIBUTES) {
             report_attribute(e, a, element, allowed);
+            out.broken = true;
             continue;
         }
         const struct ast_node **slot = attribute_slot(&out, attribute_names[i].bit);
@@ -80,6 +82,8 @@ static struct attributes take_attributes(struct eval *e, const struct ast_node *
 static enum schema_kind take_kind(struct eval *e, const struct ast_node *node,
                                   const struct attributes *a, enum schema_group group)
 {
+    if (!a->class && a->broken)
+        return SCHEMA_KINDS; /* probably misspelt */
     if (!a->class) {
         diag_report(e->diag, DIAG_MISSING_PROPERTY, node->name_span,
                     "'%.*s' needs a 'class' attribute that names the kind of %s",
@@ -333,6 +337,7 @@ void eval_xml(struct eval *e, const struct ast_node *root)
     const struct ast_node *found[SECTIONS] = {0};
     if (!root)
         return;
+    e->out->start = root->name_span;
     eval_root_attributes(e, root);
     for (const struct ast_node *c = root->children; c; c = c->next) {
         if (c->kind == AST_TEXT && c->text.n)

@@ -17,14 +17,12 @@ enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_OTHER };
 struct signature {
     enum signature_kind kind;
     size_t at; /* offset in the file */
-    struct str bytes;
+    const char *bytes;
+    size_t n; /* of bytes */
     const char *name;
 };
 
-#define BYTES(z)        \
-    {                   \
-        z, sizeof z - 1 \
-    }
+#define BYTES(z) (z), sizeof(z) - 1
 
 static const struct signature signatures[] = {
     {KIND_PNG, 0, BYTES("\x89PNG\r\n\x1a\n"), "PNG"},
@@ -59,7 +57,7 @@ static const struct signature *signature_of(const uint8_t *bytes, size_t n)
 {
     for (size_t i = 0; i < SIGNATURES; i++) {
         const struct signature *s = &signatures[i];
-        if (n >= s->at + s->bytes.n && memcmp(bytes + s->at, s->bytes.at, s->bytes.n) == 0)
+        if (n >= s->at + s->n && memcmp(bytes + s->at, s->bytes, s->n) == 0)
             return s;
     }
     return NULL;

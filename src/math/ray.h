@@ -21,7 +21,7 @@
 /* Boxes are taken larger by this times the coordinates involved (their own and the ray's origin):
  * more than the rounding errors of the box test and of any primitive's hit, so that no box is
  * missed which holds a hit. */
-#define BOX_PADDING 0x1p-47
+#define BOX_PADDING 0x1p-42
 
 /* Hits count at 0 < t <= t_max, t in units of the length of `direction` (which need not be 1).
  *
@@ -43,7 +43,8 @@ struct hit {
     double t;
     uint32_t prim; /* number in the geometry, PRIM_NONE: nothing hit */
     uint32_t part; /* enum cylinder_part */
-    double b1, b2; /* triangle: weights of the second and third vertex */
+    /* triangle: weights of the second and third vertex; geometry_hit_point works them out */
+    double b1, b2;
 };
 
 static inline struct hit hit_none(double t_max)
@@ -57,12 +58,34 @@ static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
     return t > 0 && (t < best->t || (t == best->t && prim < best->prim));
 }
 
-/* What the tests of one ray against boxes and triangles share. */
+/* What the tests of one ray against many primitives share. */
 struct ray_frame {
-    struct vec3 inverse;     /* 1 / direction, see ray_inverse */
-    double shear_x, shear_y; /* direction's other two components over the largest */
-    int axis;                /* of the largest component of the direction */
+    double square, inverse_square; /* of the direction's length */
+    double tolerance, reach;       /* SPAWN_TOLERANCE or 0; the origin's largest coordinate */
+    double shear_x, shear_y;       /* the direction's other two components over the largest */
+    int axis;                      /* of the direction's largest component */
 };
+
+static inline struct ray_frame ray_frame_of(const struct ray *ray)
+{
+    struct vec3 d = ray->direction;
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    struct ray_frame f = { .square = vec3_dot(d, d),
+                           .tolerance = ray->spawned ? SPAWN_TOLERANCE : 0,
+                           .reach = vec3_largest(ray->origin) };
+    f.inverse_square = 1 / f.square;
+    if (x > y && x > z) {
+        double inverse = 1 / d.x;
+        f.axis = 0, f.shear_x = d.y * inverse, f.shear_y = d.z * inverse;
+    } else if (y > z) {
+        double inverse = 1 / d.y;
+        f.axis = 1, f.shear_x = d.z * inverse, f.shear_y = d.x * inverse;
+    } else {
+        double inverse = 1 / d.z;
+        f.axis = 2, f.shear_x = d.x * inverse, f.shear_y = d.y * inverse;
+    }
+    return f;
+}
 
 /* 1/d for box tests.  A component below 2^-60 of the largest moves the ray by less than a box's
  * padding on any way; it is replaced by that, so that every product stays a number. */
@@ -70,20 +93,6 @@ static inline double ray_inverse(double d, double largest)
 {
     double least = largest * 0x1p-60;
     return 1 / (fabs(d) < least ? copysign(least, d) : d);
-}
-
-static inline struct ray_frame ray_frame_of(struct vec3 d)
-{
-    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
-    struct ray_frame f;
-    f.axis = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
-    double largest = vec3_at(d, f.axis);
-    f.shear_x = vec3_at(d, f.axis == 2 ? 0 : f.axis + 1) / largest;
-    f.shear_y = vec3_at(d, f.axis == 0 ? 2 : f.axis - 1) / largest;
-    largest = fabs(largest);
-    f.inverse = vec3(ray_inverse(d.x, largest), ray_inverse(d.y, largest),
-                     ray_inverse(d.z, largest));
-    return f;
 }
 
 /* False for a direction of length zero or with a part that is no finite number: such a ray hits

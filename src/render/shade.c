@@ -20,16 +20,17 @@ static struct vec3 bumped(struct vec3 normal, struct vec3 texel)
 }
 
 struct shade_point shade_point_of(const struct scene *scene, const struct ray *ray,
-                                  const struct hit *hit)
+                                  struct hit *hit)
 {
     const struct geometry *g = &scene->geometry;
     const struct surface *surface = &scene->surfaces.at[g->prims.at[hit->prim].surface];
     struct shade_point s = { .incoming = ray->direction,
-                             .p = geometry_hit_point(g, ray, hit),
                              .prim = hit->prim,
                              .surface = surface,
                              .material = &scene->materials.at[surface->material] };
-    s.normal = surface_normal(scene, surface, hit, s.p);
+    struct vec3 geometric;
+    s.p = geometry_hit_point(g, ray, hit, &geometric);
+    s.normal = surface_normal(scene, surface, hit, geometric);
     if (surface->needs_uv)
         s.uv = surface_uv(scene, surface, hit, s.p);
     if (surface->normal_map != TEXTURE_NONE) {

@@ -36,10 +36,9 @@ static bool is_blocked(struct worker *w, const struct ray *ray)
 {
     const struct tracer *t = w->tracer;
     struct hit hit;
-    uint32_t occluder;
     w->stats.shadow++;
     if (!t->emissive)
-        return accel_any(&t->accel, ray, &occluder);
+        return accel_any(&t->accel, ray);
     if (!accel_closest(&t->accel, ray, &hit))
         return false;
     uint32_t surface = t->scene->geometry.prims.at[hit.prim].surface;
@@ -53,10 +52,9 @@ static bool point_counts(const struct lamp *lamp, const struct light_point *poin
 {
     if (point->on_object || (point->inside && !no_skip))
         return true;
-    uint32_t prim;
     struct ray ray = shadow_ray(s, point->position, RAY_UNBOUNDED);
     ray.from = PRIM_NONE;
-    return accel_any(&lamp->object, &ray, &prim);
+    return accel_any(&lamp->object, &ray);
 }
 
 static double area_share(struct worker *w, const struct lamp *lamp, const struct shade_point *s)

@@ -64,9 +64,10 @@ static bool hits_crossed_surface(const struct tracer *t, const struct path *path
 {
     const struct surface *surface = &t->scene->surfaces.at[path->crossed];
     if (surface->prim_count == 1) {
-        struct ray_frame frame = ray_frame_of(path->ray.direction);
+        struct ray_frame frame = ray_frame_of(&path->ray);
         *hit = hit_none(path->ray.t_max);
-        return geometry_intersect(&t->scene->geometry, surface->first_prim, &path->ray, &frame,
+        return ray_has_direction(&path->ray) &&
+               geometry_intersect(&t->scene->geometry, surface->first_prim, &path->ray, &frame,
                                   hit);
     }
     struct ray ray = path->ray;

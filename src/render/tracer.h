@@ -56,7 +56,7 @@ void lamp_free(struct lamp *lamp);
 
 /* shade.c */
 struct shade_point shade_point_of(const struct scene *scene, const struct ray *ray,
-                                  const struct hit *hit);
+                                  struct hit *hit);
 /* Light that arrives directly, summed over all lights; *intensity becomes the sum of their
  * intensities at the point. */
 struct vec3 shade_direct(struct worker *w, const struct shade_point *s, struct vec3 *intensity);

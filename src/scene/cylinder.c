@@ -1,5 +1,6 @@
 #include "config.h"
 
+#include "scene/intersect.h"
 #include "scene/shape.h"
 
 static const struct cylinder *cylinder_at(const struct geometry *g, uint32_t prim)
@@ -27,28 +28,36 @@ struct stretch {
     uint32_t part[2];
 };
 
-/* Lengths below this are rounding errors at p. */
-static double rounding_at(const struct cylinder *c, struct vec3 p)
+/* Plain products: their error, relative to the lengths, is within what the angle to the axis costs
+ * anyway. */
+static struct vec3 cross(struct vec3 a, struct vec3 b)
 {
-    return SPAWN_TOLERANCE *
-           (vec3_largest(p) + vec3_largest(c->base) + c->height + c->radius);
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* Within the endless cylinder around the axis: |w + t n| <= r. */
-static bool clip_to_side(const struct cylinder *c, const struct ray *ray, struct stretch *s)
+static double reach_of(const struct cylinder *c)
 {
-    struct vec3 m = vec3_sub(ray->origin, c->base);
-    struct vec3 n = vec3_cross(ray->direction, c->axis), w = vec3_cross(m, c->axis);
+    return vec3_largest(c->base) + c->height + c->radius;
+}
+
+/* Within the endless cylinder around the axis: |w + t n| <= r.  Lengths below `rounding` are
+ * rounding errors. */
+static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 direction,
+                         double rounding, struct stretch *s)
+{
+    struct vec3 n = cross(direction, c->axis), w = cross(m, c->axis);
     double a = vec3_dot(n, n), b = vec3_dot(n, w), r2 = c->radius * c->radius;
     double power = vec3_dot(w, w) - r2; /* of the origin: 0 on the side */
-    if (ray->spawned && fabs(power) <= 2 * c->radius * rounding_at(c, ray->origin))
+    if (fabs(power) <= 2 * c->radius * rounding)
         power = 0;
     if (a == 0) {
         *s = (struct stretch){ { -INFINITY, INFINITY }, { CYLINDER_SIDE, CYLINDER_SIDE } };
         return power <= 0;
     }
+    if (power > 0 && !(b < 0))
+        return false; /* outside and leaving */
     double t0, t1;
-    if (power == 0) {
+    if (power == 0) { /* the origin is one root */
         t0 = 0;
         t1 = -2 * b / a;
     } else {
@@ -66,16 +75,12 @@ static bool clip_to_side(const struct cylinder *c, const struct ray *ray, struct
 
 /* Between the planes of the caps.  Where a cap bounds the stretch as closely as the side, the cap
  * is hit. */
-static bool clip_to_caps(const struct cylinder *c, const struct ray *ray, struct stretch *s)
+static bool clip_to_caps(const struct cylinder *c, struct vec3 m, struct vec3 direction,
+                         double rounding, struct stretch *s)
 {
-    double z = vec3_dot(vec3_sub(ray->origin, c->base), c->axis);
-    double speed = vec3_dot(ray->direction, c->axis);
-    double to_base = -z, to_top = c->height - z;
-    if (ray->spawned) {
-        double rounding = rounding_at(c, ray->origin);
-        to_base = fabs(to_base) <= rounding ? 0 : to_base;
-        to_top = fabs(to_top) <= rounding ? 0 : to_top;
-    }
+    double z = vec3_dot(m, c->axis), speed = vec3_dot(direction, c->axis);
+    double to_base = fabs(z) <= rounding ? 0 : -z;
+    double to_top = fabs(c->height - z) <= rounding ? 0 : c->height - z;
     if (speed == 0)
         return to_base <= 0 && to_top >= 0;
     double t_base = to_base / speed, t_top = to_top / speed;
@@ -93,56 +98,48 @@ static bool clip_to_caps(const struct cylinder *c, const struct ray *ray, struct
 }
 
 /* The active bound of the stretch tells side from cap, so nothing leaks at the rims. */
-bool cylinder_intersect(const struct geometry *g, uint32_t prim, const struct ray *ray,
-                        const struct ray_frame *frame, struct hit *best)
+double cylinder_distance(const struct cylinder *c, const struct ray *ray,
+                         const struct ray_frame *frame, uint32_t *part)
 {
-    const struct cylinder *c = cylinder_at(g, prim);
+    struct vec3 m = vec3_sub(ray->origin, c->base), d = ray->direction;
+    double rounding = frame->tolerance * (frame->reach + reach_of(c));
     struct stretch s;
-    (void)frame;
-    if (!clip_to_side(c, ray, &s) || !clip_to_caps(c, ray, &s) || !(s.t[0] <= s.t[1]))
-        return false;
+    if (!clip_to_side(c, m, d, rounding, &s) || !clip_to_caps(c, m, d, rounding, &s) ||
+        !(s.t[0] <= s.t[1]))
+        return 0;
     int end = s.t[0] > 0 ? 0 : 1;
-    if (!hit_before(s.t[end], prim, best))
-        return false;
-    *best = (struct hit){ .t = s.t[end], .prim = prim, .part = s.part[end] };
-    return true;
+    *part = s.part[end];
+    return s.t[end];
 }
 
 bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
 {
     const struct cylinder *c = cylinder_at(g, prim);
-    struct vec3 m = vec3_sub(p, c->base), w = vec3_cross(m, c->axis);
+    struct vec3 m = vec3_sub(p, c->base), w = cross(m, c->axis);
     double z = vec3_dot(m, c->axis), r2 = c->radius * c->radius;
-    double power = vec3_dot(w, w) - r2, rounding = rounding_at(c, p);
+    double power = vec3_dot(w, w) - r2;
+    double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + reach_of(c));
     if (z < -rounding || z > c->height + rounding || power > 2 * c->radius * rounding)
         return false;
     return power >= -2 * c->radius * rounding || z <= rounding || z >= c->height - rounding;
 }
 
-struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray,
-                               const struct hit *hit)
+struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
+                               struct vec3 *normal)
 {
     const struct cylinder *c = cylinder_at(g, hit->prim);
     struct vec3 p = vec3_mad(vec3_sub(ray->origin, c->base), hit->t, ray->direction);
     double z = vec3_dot(p, c->axis);
     struct vec3 across = vec3_mad(p, -z, c->axis);
     double length = vec3_length(across);
+    struct vec3 outwards = vec3_scale(across, 1 / length);
     if (hit->part == CYLINDER_SIDE || length > c->radius)
-        across = vec3_scale(across, c->radius / length);
+        across = vec3_scale(outwards, c->radius);
     if (hit->part == CYLINDER_BASE || z < 0)
         z = 0;
     else if (hit->part == CYLINDER_TOP || z > c->height)
         z = c->height;
+    *normal = hit->part == CYLINDER_SIDE ? outwards
+              : hit->part == CYLINDER_TOP ? c->axis : vec3_neg(c->axis);
     return vec3_add(c->base, vec3_mad(across, z, c->axis));
-}
-
-struct vec3 cylinder_normal(const struct geometry *g, const struct hit *hit, struct vec3 p)
-{
-    const struct cylinder *c = cylinder_at(g, hit->prim);
-    if (hit->part == CYLINDER_BASE)
-        return vec3_neg(c->axis);
-    if (hit->part == CYLINDER_TOP)
-        return c->axis;
-    struct vec3 m = vec3_sub(p, c->base);
-    return vec3_normalize(vec3_mad(m, -vec3_dot(m, c->axis), c->axis));
 }

@@ -2,27 +2,22 @@
 
 #include "scene/geometry.h"
 
+#include "scene/intersect.h"
 #include "scene/shape.h"
 
 #include <assert.h>
 
 struct shape {
     struct box (*bounds)(const struct geometry *g, uint32_t prim);
-    bool (*intersect)(const struct geometry *g, uint32_t prim, const struct ray *ray,
-                      const struct ray_frame *frame, struct hit *best);
     bool (*lies_on)(const struct geometry *g, uint32_t prim, struct vec3 p);
-    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray,
-                             const struct hit *hit);
-    struct vec3 (*normal)(const struct geometry *g, const struct hit *hit, struct vec3 p);
+    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray, struct hit *hit,
+                             struct vec3 *normal);
 };
 
 static const struct shape shapes[PRIM_KINDS] = {
-    [PRIM_SPHERE] = { sphere_bounds, sphere_intersect, sphere_lies_on, sphere_hit_point,
-                      sphere_normal },
-    [PRIM_CYLINDER] = { cylinder_bounds, cylinder_intersect, cylinder_lies_on, cylinder_hit_point,
-                        cylinder_normal },
-    [PRIM_TRIANGLE] = { triangle_bounds, triangle_intersect, triangle_lies_on, triangle_hit_point,
-                        triangle_normal },
+    [PRIM_SPHERE] = { sphere_bounds, sphere_lies_on, sphere_hit_point },
+    [PRIM_CYLINDER] = { cylinder_bounds, cylinder_lies_on, cylinder_hit_point },
+    [PRIM_TRIANGLE] = { triangle_bounds, triangle_lies_on, triangle_hit_point },
 };
 
 static const struct shape *shape_of(const struct geometry *g, uint32_t prim)
@@ -49,7 +44,7 @@ static void add_prim(struct geometry *g, enum prim_kind kind, size_t index, uint
 void geometry_add_sphere(struct geometry *g, uint32_t surface, struct vec3 center, double radius)
 {
     add_prim(g, PRIM_SPHERE, g->spheres.n, surface);
-    vec_push(&g->spheres, (struct sphere){ center, radius });
+    vec_push(&g->spheres, (struct sphere){ center, radius, vec3_largest(center) + radius });
 }
 
 void geometry_add_cylinder(struct geometry *g, uint32_t surface, struct vec3 base, struct vec3 top,
@@ -68,9 +63,10 @@ void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, ui
 {
     assert(v0 < g->vertices.n && v1 < g->vertices.n && v2 < g->vertices.n);
     const struct vec3 *v = g->vertices.at;
-    struct vec3 normal = triangle_unit_normal(v[v0], v[v1], v[v2]);
+    struct triangle t = { .vertex = { v0, v1, v2 } };
+    t.normal = triangle_unit_normal(v[v0], v[v1], v[v2], &t.slim);
     add_prim(g, PRIM_TRIANGLE, g->triangles.n, surface);
-    vec_push(&g->triangles, (struct triangle){ { v0, v1, v2 }, normal });
+    vec_push(&g->triangles, t);
 }
 
 uint32_t geometry_add_vertex(struct geometry *g, struct vec3 p)
@@ -95,7 +91,7 @@ struct box geometry_bounds(const struct geometry *g)
 bool geometry_intersect(const struct geometry *g, uint32_t prim, const struct ray *ray,
                         const struct ray_frame *frame, struct hit *best)
 {
-    return shape_of(g, prim)->intersect(g, prim, ray, frame, best);
+    return target_intersect(g, target_of(g, prim), ray, frame, best);
 }
 
 bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
@@ -103,13 +99,8 @@ bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
     return shape_of(g, prim)->lies_on(g, prim, p);
 }
 
-struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
-                               const struct hit *hit)
+struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
+                               struct vec3 *normal)
 {
-    return shape_of(g, hit->prim)->hit_point(g, ray, hit);
-}
-
-struct vec3 geometry_normal(const struct geometry *g, const struct hit *hit, struct vec3 p)
-{
-    return shape_of(g, hit->prim)->normal(g, hit, p);
+    return shape_of(g, hit->prim)->hit_point(g, ray, hit, normal);
 }

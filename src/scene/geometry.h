@@ -23,6 +23,7 @@ struct prim {
 struct sphere {
     struct vec3 center;
     double radius; /* > 0 */
+    double reach;  /* largest |coordinate| of the center, and the radius */
 };
 
 struct cylinder {
@@ -33,6 +34,7 @@ struct cylinder {
 
 struct triangle {
     uint32_t vertex[3];
+    bool slim;          /* a sharp corner at v0: its normal is less exact than its vertices */
     struct vec3 normal; /* unit, (v1 - v0) x (v2 - v0); zero for a triangle without area */
 };
 
@@ -71,12 +73,10 @@ bool geometry_intersect(const struct geometry *g, uint32_t prim, const struct ra
 bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
 
 /* The hit point, put back onto the primitive (projected to a sphere or cylinder, the weighted sum
- * of a triangle's vertices): within a few ulps of the surface whatever the ray's length. */
-struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
-                               const struct hit *hit);
-
-/* Unit normal at point p of the hit: outwards for sphere and cylinder, (v1-v0) x (v2-v0) for a
- * triangle. */
-struct vec3 geometry_normal(const struct geometry *g, const struct hit *hit, struct vec3 p);
+ * of a triangle's vertices): within a few ulps of the surface whatever the ray's length.  Fills in
+ * the weights of *hit and the unit normal there: outwards for sphere and cylinder,
+ * (v1-v0) x (v2-v0) for a triangle. */
+struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
+                               struct vec3 *normal);
 
 #endif

@@ -321,7 +321,7 @@ static bool parse_face(struct off *o, size_t number)
         return misread(o, diag_report(o->diag, DIAG_MESH_SYNTAX, span_of(o, begin, o->at),
                                       "a face has at least 3 corners, not %llu",
                                       (unsigned long long)corners));
-    struct triangle_corners t;
+    struct triangle_corners t = {{0}};
     for (uint64_t i = 0; i < corners; i++) {
         if (!parse_corner(o, number, &t.at[i < 2 ? i : 2]))
             return false;

@@ -119,8 +119,9 @@ struct vec3 texture_fetch(const struct texture *t, double u, double v);
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p);
 
-/* Shading normal before any normal map: interpolated for smooth meshes, flipped where asked. */
+/* Shading normal before any normal map, made of the geometric one: interpolated for smooth meshes,
+ * flipped where asked. */
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
-                           const struct hit *hit, struct vec3 p);
+                           const struct hit *hit, struct vec3 geometric);
 
 #endif

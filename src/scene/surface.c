@@ -69,9 +69,8 @@ static struct vec3 smooth_normal(const struct geometry *g, const struct surface 
 }
 
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
-                           const struct hit *hit, struct vec3 p)
+                           const struct hit *hit, struct vec3 geometric)
 {
-    struct vec3 n = surface->normals ? smooth_normal(&s->geometry, surface, hit)
-                                     : geometry_normal(&s->geometry, hit, p);
+    struct vec3 n = surface->normals ? smooth_normal(&s->geometry, surface, hit) : geometric;
     return surface->flip ? vec3_neg(n) : n;
 }

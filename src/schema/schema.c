@@ -56,7 +56,8 @@ static struct str half_of(struct str pair, bool xml)
 
 static const char *kind_name(enum schema_kind k, bool xml)
 {
-    return xml ? schema_kinds[k].xml : schema_kinds[k].native;
+    const char *native = schema_kinds[k].native, *space = strchr(native, ' ');
+    return xml ? schema_kinds[k].xml : space ? space + 1 : native;
 }
 
 enum schema_kind schema_find_kind(enum schema_group group, struct str name, bool xml)

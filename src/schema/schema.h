@@ -50,7 +50,8 @@ enum schema_type {
 
 struct schema_kind_row {
     enum schema_group group;
-    const char *native, *xml;
+    const char *native; /* the word that makes one, lights: `light` and the word */
+    const char *xml;    /* class */
     const char *doc;
 };
 extern const struct schema_kind_row schema_kinds[SCHEMA_KINDS];
@@ -75,7 +76,7 @@ static inline bool schema_has(enum schema_kind kind, enum schema_prop_id prop)
     return schema_props[prop].kinds >> kind & 1;
 }
 
-/* The kind with this native name (or XML class) in a group; SCHEMA_KINDS: none. */
+/* The kind by its last native word (or XML class) in a group; SCHEMA_KINDS: none. */
 enum schema_kind schema_find_kind(enum schema_group group, struct str name, bool xml);
 /* The nearest name, for "did you mean"; empty when none is near. */
 struct str schema_nearest_kind(enum schema_group group, struct str name, bool xml);

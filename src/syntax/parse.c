@@ -23,8 +23,8 @@ static bool open_scanner(struct parser *p, bool xml)
 
 static void close_scanner(struct parser *p, bool xml)
 {
-    if (p->scanner)
-        (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
+    (xml ? xml_release : native_release)(p->scanner);
+    (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
 }
 
 static void run(const struct source *source, int start_token, size_t max_objects, struct ast *out,

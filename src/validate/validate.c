@@ -25,6 +25,19 @@ static const struct desc_prop *find_prop(const struct desc_object *o, enum schem
     return NULL;
 }
 
+/* Where the property's name or value stands; no place when it is not given. */
+static struct span name_span(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_prop *p = find_prop(o, id);
+    return p ? p->name_span : (struct span){0};
+}
+
+static struct span value_span(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_value *v = desc_get(o, id);
+    return v ? v->span : (struct span){0};
+}
+
 /* ---- what the schema says of each property alone ---- */
 
 static void check_required(const struct desc_object *o, struct diag *diag)
@@ -56,16 +69,18 @@ static bool in_range(const struct schema_prop *s, double x)
     return isfinite(x) && !low && !(s->most != 0 && x > s->most);
 }
 
-static void describe_range(const struct schema_prop *s, char out[80])
+enum { RANGE_BYTES = 128 };
+
+static void describe_range(const struct schema_prop *s, char out[RANGE_BYTES])
 {
     char least[NUM_PRINT_BYTES], most[NUM_PRINT_BYTES];
     num_print(s->least, least);
     num_print(s->most, most);
     const char *bound = s->above ? "above" : "at least";
     if (s->most != 0)
-        snprintf(out, 80, "%s %s and at most %s", bound, least, most);
+        snprintf(out, RANGE_BYTES, "%s %s and at most %s", bound, least, most);
     else
-        snprintf(out, 80, "%s %s", bound, least);
+        snprintf(out, RANGE_BYTES, "%s %s", bound, least);
 }
 
 static void check_range(const struct desc_object *o, const struct desc_prop *p, struct diag *diag)
@@ -77,7 +92,7 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
     for (unsigned i = 0; i < n; i++) {
         if (in_range(s, p->value.number[i]))
             continue;
-        char range[80];
+        char range[RANGE_BYTES];
         describe_range(s, range);
         struct str name = o->xml && n > 1 ? schema_leaf(p->id, i) : prop_name(o, p->id);
         diag_report(diag, DIAG_OUT_OF_RANGE, p->value.span, "'%.*s' must be %s", STR_ARG(name),
@@ -117,26 +132,26 @@ static double sine_between(struct vec3 a, struct vec3 b)
 
 static void check_camera(const struct desc_object *o, struct diag *diag)
 {
-    const struct desc_value *back = desc_get(o, PROP_BACK), *up = desc_get(o, PROP_UP);
-    const struct desc_value *size = desc_get(o, PROP_RESOLUTION);
+    struct vec3 size = desc_vector(o, PROP_RESOLUTION);
+    struct span back = value_span(o, PROP_BACK), up = value_span(o, PROP_UP);
     struct vec3 z = desc_vector(o, PROP_BACK), y = desc_vector(o, PROP_UP);
     if (is_zero(z))
-        diag_report(diag, DIAG_DEGENERATE, back->span, "'%.*s' is a direction without length",
+        diag_report(diag, DIAG_DEGENERATE, back, "'%.*s' is a direction without length",
                     STR_ARG(prop_name(o, PROP_BACK)));
     else if (is_zero(y))
-        diag_report(diag, DIAG_DEGENERATE, up->span, "'%.*s' is a direction without length",
+        diag_report(diag, DIAG_DEGENERATE, up, "'%.*s' is a direction without length",
                     STR_ARG(prop_name(o, PROP_UP)));
     else if (!(sine_between(z, y) > PARALLEL_SINE))
-        diag_report(diag, DIAG_DEGENERATE, up->span,
+        diag_report(diag, DIAG_DEGENERATE, up,
                     "'%.*s' is parallel to the view, so it cannot say what is up",
                     STR_ARG(prop_name(o, PROP_UP)));
-    if (!image_size_allowed((uint64_t)size->number[0], (uint64_t)size->number[1]))
-        diag_report(diag, DIAG_OUT_OF_RANGE, size->span,
+    if (!image_size_allowed((uint64_t)size.x, (uint64_t)size.y))
+        diag_report(diag, DIAG_OUT_OF_RANGE, value_span(o, PROP_RESOLUTION),
                     "a picture has at most %d pixels in all", IMAGE_PIXEL_LIMIT);
-    double half = desc_number(o, PROP_YFOV) * size->number[0] / size->number[1];
+    double half = desc_number(o, PROP_YFOV) * size.x / size.y;
     if (!(half < 90)) {
         struct diag_entry *e = diag_report(
-            diag, DIAG_OUT_OF_RANGE, desc_get(o, PROP_YFOV)->span,
+            diag, DIAG_OUT_OF_RANGE, value_span(o, PROP_YFOV),
             "'%.*s' times width over height must be below 90 degrees, but is %.6g",
             STR_ARG(prop_name(o, PROP_YFOV)), half);
         diag_note(e, "classic takes that product as half the horizontal field of view");
@@ -147,10 +162,10 @@ static void report_conflict(const struct desc_object *o, enum schema_prop_id one
                             enum schema_prop_id other, struct diag *diag)
 {
     struct diag_entry *e =
-        diag_report(diag, DIAG_CONFLICT, find_prop(o, other)->name_span,
+        diag_report(diag, DIAG_CONFLICT, name_span(o, other),
                     "'%.*s' and '%.*s' cannot be given together", STR_ARG(prop_name(o, one)),
                     STR_ARG(prop_name(o, other)));
-    diag_label(e, find_prop(o, one)->name_span, "'%.*s' is given here", STR_ARG(prop_name(o, one)));
+    diag_label(e, name_span(o, one), "'%.*s' is given here", STR_ARG(prop_name(o, one)));
 }
 
 static void check_surface(const struct desc_object *o, bool in_scene, struct diag *diag);

@@ -1,0 +1,197 @@
+#include "config.h"
+
+#include "accel/shaft.h"
+
+/* Far more than the rounding errors of the shaft's own arithmetic and a box's padding together. */
+#define SHAFT_PADDING 0x1p-38
+
+static double box_reach(struct box b)
+{
+    double lo = vec3_largest(b.lo), hi = vec3_largest(b.hi);
+    return lo > hi ? lo : hi;
+}
+
+static double inverse_growth(double growth, double largest)
+{
+    double least = largest * 0x1p-60;
+    return 1 / (fabs(growth) < least ? copysign(least, growth) : growth);
+}
+
+/* lo_growth and hi_growth: by how much the bounds move while t grows by 1. */
+static void make_ready(struct shaft *s, struct vec3 lo_growth, struct vec3 hi_growth)
+{
+    double l = vec3_largest(lo_growth), h = vec3_largest(hi_growth), largest = l > h ? l : h;
+    for (int axis = 0; axis < 3; axis++) {
+        s->lo[axis] = vec3_at(s->start.lo, axis) - s->padding;
+        s->hi[axis] = vec3_at(s->start.hi, axis) + s->padding;
+        s->lo_inverse[axis] = inverse_growth(vec3_at(lo_growth, axis), largest);
+        s->hi_inverse[axis] = inverse_growth(vec3_at(hi_growth, axis), largest);
+    }
+}
+
+struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box directions)
+{
+    struct shaft s = { .start = origins, .t_max = INFINITY, .endless = true };
+    s.padding = SHAFT_PADDING * (a->reach + box_reach(origins));
+    make_ready(&s, directions.lo, directions.hi);
+    return s;
+}
+
+/* Beyond q the rays spread again: the shaft ends in the box of all p + t_max (q - p). */
+struct shaft shaft_between(const struct accel *a, struct box p, struct box q, double t_max)
+{
+    double on = t_max - 1;
+    struct box end = { vec3_mad(vec3_scale(q.lo, t_max), -on, p.hi),
+                       vec3_mad(vec3_scale(q.hi, t_max), -on, p.lo) };
+    struct shaft s = { .start = p, .end = box_join(end, q), .t_max = 1, .spawned = true };
+    s.padding = SHAFT_PADDING * (a->reach + box_reach(p) + box_reach(s.end));
+    make_ready(&s, vec3_sub(s.end.lo, p.lo), vec3_sub(s.end.hi, p.hi));
+    return s;
+}
+
+/* Whether at some t the shaft's bounds overlap the box on every axis. */
+static bool touches_box(const struct shaft *s, const double lo[3], const double hi[3])
+{
+    double from = 0, to = s->t_max;
+    for (int axis = 0; axis < 3; axis++) {
+        double below = (hi[axis] - s->lo[axis]) * s->lo_inverse[axis];
+        double above = (lo[axis] - s->hi[axis]) * s->hi_inverse[axis];
+        if (s->lo_inverse[axis] > 0)
+            to = below < to ? below : to;
+        else
+            from = below > from ? below : from;
+        if (s->hi_inverse[axis] > 0)
+            from = above > from ? above : from;
+        else
+            to = above < to ? above : to;
+    }
+    return from <= to;
+}
+
+/* The range of n . x over a box. */
+static void range_along(struct vec3 n, struct box b, double *least, double *most)
+{
+    struct vec3 lo = vec3_mul(n, b.lo), hi = vec3_mul(n, b.hi);
+    struct vec3 low = vec3_min(lo, hi), high = vec3_max(lo, hi);
+    *least = low.x + low.y + low.z;
+    *most = high.x + high.y + high.z;
+}
+
+/* Whether rays between start and end can cross the triangle's plane off their origins. */
+static bool crosses_plane(const struct accel *a, const struct shaft *s, uint32_t index)
+{
+    const struct triangle *t = &a->geometry->triangles.at[index];
+    double at = vec3_dot(t->normal, a->geometry->vertices.at[t->vertex[0]]);
+    double start[2], end[2];
+    range_along(t->normal, s->start, &start[0], &start[1]);
+    range_along(t->normal, s->end, &end[0], &end[1]);
+    if (start[0] - at > s->padding && end[0] - at > s->padding)
+        return false;
+    return !(start[1] - at < -s->padding && end[1] - at < -s->padding);
+}
+
+static bool touches_target(const struct accel *a, const struct shaft *s, struct target target)
+{
+    struct box b = geometry_prim_bounds(a->geometry, target.prim);
+    double lo[3] = { b.lo.x, b.lo.y, b.lo.z }, hi[3] = { b.hi.x, b.hi.y, b.hi.z };
+    if (!touches_box(s, lo, hi))
+        return false;
+    return target.kind != PRIM_TRIANGLE || s->endless || crosses_plane(a, s, target.index);
+}
+
+static bool add_run(const struct accel *a, const struct shaft *s, uint32_t first, uint32_t count,
+                    struct target_list *list)
+{
+    for (uint32_t i = first; i < first + count; i++) {
+        if (!touches_target(a, s, a->targets[i]))
+            continue;
+        if (list->n == TARGET_LIST_LIMIT)
+            return false;
+        list->nearest[list->n] = 0;
+        list->at[list->n++] = a->targets[i];
+    }
+    return true;
+}
+
+static bool add_tree(const struct accel *a, const struct shaft *s, struct target_list *list)
+{
+    uint32_t stack[BVH_DEPTH_LIMIT + 1] = { 0 };
+    int depth = 1;
+    while (depth > 0) {
+        const struct bvh_node *node = &a->nodes[stack[--depth]];
+        for (int child = 0; child < 2; child++) {
+            if (!touches_box(s, node->plane[child][0], node->plane[child][1]))
+                continue;
+            if (node->count[child] == 0)
+                stack[depth++] = node->first[child];
+            else if (!add_run(a, s, node->first[child], node->count[child], list))
+                return false;
+        }
+    }
+    return true;
+}
+
+void shaft_list(const struct accel *a, const struct shaft *s, struct target_list *list)
+{
+    list->n = 0;
+    list->usable = a->nodes ? add_tree(a, s, list) : add_run(a, s, 0, a->target_count, list);
+}
+
+/* Distance between two boxes. */
+static double gap(struct box a, struct box b)
+{
+    struct vec3 d = vec3_max(vec3_sub(a.lo, b.hi), vec3_sub(b.lo, a.hi));
+    return vec3_length(vec3_max(d, vec3_all(0)));
+}
+
+static double distance_to(const struct accel *a, const struct shaft *s, struct target target)
+{
+    double d;
+    if (target.kind == PRIM_SPHERE) {
+        const struct sphere *sphere = &a->geometry->spheres.at[target.index];
+        d = gap(s->start, (struct box){ sphere->center, sphere->center }) - sphere->radius;
+    } else {
+        d = gap(s->start, geometry_prim_bounds(a->geometry, target.prim));
+    }
+    d = d * (1 - 0x1p-30) - s->padding;
+    return d > 0 ? d : 0;
+}
+
+void target_list_sort(const struct accel *a, const struct shaft *s, struct target_list *list)
+{
+    for (uint32_t i = 0; i < list->n; i++) {
+        struct target target = list->at[i];
+        double d = distance_to(a, s, target);
+        uint32_t k = i;
+        for (; k > 0 && list->nearest[k - 1] > d; k--) {
+            list->nearest[k] = list->nearest[k - 1];
+            list->at[k] = list->at[k - 1];
+        }
+        list->nearest[k] = d;
+        list->at[k] = target;
+    }
+}
+
+bool target_list_closest(const struct accel *a, const struct target_list *list,
+                         const struct ray *ray, struct hit *hit)
+{
+    *hit = hit_none(ray->t_max);
+    if (list->n == 0 || !ray_has_direction(ray))
+        return false;
+    struct ray_frame frame = ray_frame_of(ray);
+    for (uint32_t i = 0; i < list->n && list->nearest[i] <= hit->t; i++)
+        target_intersect(a->geometry, list->at[i], ray, &frame, hit);
+    return hit->prim != PRIM_NONE;
+}
+
+bool target_list_any(const struct accel *a, const struct target_list *list, const struct ray *ray)
+{
+    if (list->n == 0 || !ray_has_direction(ray))
+        return false;
+    struct hit hit = hit_none(ray->t_max);
+    struct ray_frame frame = ray_frame_of(ray);
+    for (uint32_t i = 0; i < list->n; i++)
+        if (target_intersect(a->geometry, list->at[i], ray, &frame, &hit))
+            return true;
+    return false;
+}
