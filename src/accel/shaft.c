@@ -77,20 +77,24 @@ static void range_along(struct vec3 n, struct box b, double *least, double *most
     *most = high.x + high.y + high.z;
 }
 
-/* Whether rays between start and end can cross the triangle's plane off their origins. */
+/* Whether rays from start to end can hit the triangle's plane: not when all of them stay on one
+ * side, nor when they are spawned on the plane itself. */
 static bool crosses_plane(const struct accel *a, const struct shaft *s, uint32_t index)
 {
     const struct triangle *t = &a->geometry->triangles.at[index];
-    double at = vec3_dot(t->normal, a->geometry->vertices.at[t->vertex[0]]);
-    double start[2], end[2];
+    struct vec3 v0 = a->geometry->vertices.at[t->vertex[0]];
+    double at = vec3_dot(t->normal, v0), start[2], end[2];
     range_along(t->normal, s->start, &start[0], &start[1]);
     range_along(t->normal, s->end, &end[0], &end[1]);
     if (start[0] - at > s->padding && end[0] - at > s->padding)
         return false;
-    return !(start[1] - at < -s->padding && end[1] - at < -s->padding);
+    if (start[1] - at < -s->padding && end[1] - at < -s->padding)
+        return false;
+    double rounding = 0.25 * SPAWN_TOLERANCE * vec3_largest(v0);
+    return !(s->spawned && start[1] - at <= rounding && start[0] - at >= -rounding);
 }
 
-static bool touches_target(const struct accel *a, const struct shaft *s, struct target target)
+bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target)
 {
     struct box b = geometry_prim_bounds(a->geometry, target.prim);
     double lo[3] = { b.lo.x, b.lo.y, b.lo.z }, hi[3] = { b.hi.x, b.hi.y, b.hi.z };
@@ -103,7 +107,7 @@ static bool add_run(const struct accel *a, const struct shaft *s, uint32_t first
                     struct target_list *list)
 {
     for (uint32_t i = first; i < first + count; i++) {
-        if (!touches_target(a, s, a->targets[i]))
+        if (!shaft_touches(a, s, a->targets[i]))
             continue;
         if (list->n == TARGET_LIST_LIMIT)
             return false;
@@ -157,7 +161,7 @@ static double distance_to(const struct accel *a, const struct shaft *s, struct t
     return d > 0 ? d : 0;
 }
 
-void target_list_sort(const struct accel *a, const struct shaft *s, struct target_list *list)
+void shaft_sort(const struct accel *a, const struct shaft *s, struct target_list *list)
 {
     for (uint32_t i = 0; i < list->n; i++) {
         struct target target = list->at[i];
@@ -170,28 +174,4 @@ void target_list_sort(const struct accel *a, const struct shaft *s, struct targe
         list->nearest[k] = d;
         list->at[k] = target;
     }
-}
-
-bool target_list_closest(const struct accel *a, const struct target_list *list,
-                         const struct ray *ray, struct hit *hit)
-{
-    *hit = hit_none(ray->t_max);
-    if (list->n == 0 || !ray_has_direction(ray))
-        return false;
-    struct ray_frame frame = ray_frame_of(ray);
-    for (uint32_t i = 0; i < list->n && list->nearest[i] <= hit->t; i++)
-        target_intersect(a->geometry, list->at[i], ray, &frame, hit);
-    return hit->prim != PRIM_NONE;
-}
-
-bool target_list_any(const struct accel *a, const struct target_list *list, const struct ray *ray)
-{
-    if (list->n == 0 || !ray_has_direction(ray))
-        return false;
-    struct hit hit = hit_none(ray->t_max);
-    struct ray_frame frame = ray_frame_of(ray);
-    for (uint32_t i = 0; i < list->n; i++)
-        if (target_intersect(a->geometry, list->at[i], ray, &frame, &hit))
-            return true;
-    return false;
 }

@@ -6,7 +6,7 @@
 #ifndef WRT_ACCEL_SHAFT_H
 #define WRT_ACCEL_SHAFT_H
 
-#include "accel/bvh.h"
+#include "accel/bundle.h"
 
 struct shaft {
     struct box start, end; /* end: of the points at t_max, unless endless */
@@ -24,24 +24,13 @@ struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box
 /* The spawned rays p + t (q - p), 0 <= t <= t_max, t_max >= 1, for all p and q of the boxes. */
 struct shaft shaft_between(const struct accel *a, struct box p, struct box q, double t_max);
 
-enum { TARGET_LIST_LIMIT = 32 };
-
-struct target_list {
-    bool usable; /* false: too many targets; the list says nothing */
-    uint32_t n;
-    struct target at[TARGET_LIST_LIMIT];
-    double nearest[TARGET_LIST_LIMIT]; /* no ray is shorter from its start to the target */
-};
+/* Whether a ray of the bundle may hit this one primitive. */
+bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target);
 
 /* Fills in the list with what the shaft touches, the lower bounds left 0. */
 void shaft_list(const struct accel *a, const struct shaft *s, struct target_list *list);
 
-/* Works out the lower bounds, for directions of unit length, and sorts by them. */
-void target_list_sort(const struct accel *a, const struct shaft *s, struct target_list *list);
-
-/* As accel_closest and accel_any, among the list's targets. */
-bool target_list_closest(const struct accel *a, const struct target_list *list,
-                         const struct ray *ray, struct hit *hit);
-bool target_list_any(const struct accel *a, const struct target_list *list, const struct ray *ray);
+/* Works out the lower bounds and sorts by them. */
+void shaft_sort(const struct accel *a, const struct shaft *s, struct target_list *list);
 
 #endif

@@ -23,6 +23,7 @@ struct run {
     struct render_options render;
     struct picture *picture;
     struct run_stats stats;
+    struct progress progress;
 };
 
 /* The scene's name with the suffix of a picture, in the current folder. */
@@ -43,8 +44,9 @@ static char *default_output(const char *scene)
 static int choose_output(struct run *r)
 {
     const struct options *o = r->options;
-    r->output = o->output ? strcpy(mem_alloc(strlen(o->output) + 1, 1), o->output)
-                          : default_output(o->scenes.at[0]);
+    r->output = o->output ? strdup(o->output) : default_output(o->scenes.at[0]);
+    if (!r->output)
+        mem_exhausted(strlen(o->output));
     if (!picture_format_of(r->output, &r->format))
         return usage_error("'%s' names no picture format; .png, .ppm and .pfm are written",
                            r->output);
@@ -155,16 +157,15 @@ static int load(struct run *r)
 
 static void render(struct run *r)
 {
-    struct progress progress;
     struct render_options *to = &r->render;
     uint32_t width = to->crop.x1 - to->crop.x0, height = to->crop.y1 - to->crop.y0;
     choose_sampling(r);
     r->picture = picture_new(width, height, r->format == PICTURE_PFM);
-    progress_begin(&progress, r->options->quiet, (unsigned long)width * height);
+    progress_begin(&r->progress, r->options->quiet, (unsigned long)width * height);
     to->progress.report = progress_report;
-    to->progress.context = &progress;
+    to->progress.context = &r->progress;
     render_scene(&r->lowered.scene, to, r->picture, &r->stats.render);
-    progress_end(&progress);
+    progress_end(&r->progress);
     r->stats.width = width;
     r->stats.height = height;
 }

@@ -111,10 +111,11 @@ void frontend_free(struct frontend *f)
 int frontend_report(struct frontend *f, const struct options *o, enum diag_level least)
 {
     bool json = o->format == DIAG_FORMAT_JSON;
+    const char *no_color = getenv("NO_COLOR");
     struct diag_print_options print = {
         .format = o->format,
-        .colour = !json && isatty(STDERR_FILENO) && !getenv("NO_COLOR"),
-        .least = o->quiet ? DIAG_ERROR : least,
+        .colour = !json && isatty(STDERR_FILENO) && !(no_color && *no_color),
+        .least = least,
     };
     diag_print(&f->diag, &print, json ? stdout : stderr);
     return (int)f->diag.exit;

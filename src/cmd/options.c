@@ -182,8 +182,10 @@ static bool take_define(const char *text, struct options *out)
     return true;
 }
 
-static bool take(enum opt o, const char *text, struct options *out)
+/* `argument` is NULL where none is given. */
+static bool take(enum opt o, const char *argument, struct options *out)
 {
+    const char *text = argument ? argument : "";
     uint64_t whole = 0;
     switch (o) {
     case OPT_OUTPUT:
@@ -213,7 +215,7 @@ static bool take(enum opt o, const char *text, struct options *out)
     case OPT_DEFINE:
         return take_define(text, out);
     case OPT_STATS:
-        return take_stats(text, out);
+        return take_stats(argument, out);
     case OPT_FORMAT:
         return take_format(text, out);
     case OPT_JITTER:

@@ -3,19 +3,18 @@
 
 #include "eval/context.h"
 
-static struct binding *bind(struct eval *e, const struct ast_node *node, struct value v)
+static void bind(struct eval *e, const struct ast_node *node, struct value v)
 {
     struct binding *old = map_get(&e->names, node->name);
     if (old) {
         struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_NAME, node->name_span,
                                                "'%.*s' is defined twice", STR_ARG(node->name));
         diag_label(entry, old->span, "first defined here");
-        return old;
+        return;
     }
     struct binding *b = arena_zalloc(&e->out->arena, 1, sizeof *b);
     *b = (struct binding){.name = node->name, .span = node->name_span, .value = v};
     map_set(&e->names, node->name, b);
-    return b;
 }
 
 static void eval_let(struct eval *e, const struct ast_node *node)

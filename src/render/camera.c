@@ -22,15 +22,11 @@ struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
                           .mirrored = !c->compatible };
 }
 
-struct ray lens_ray(const struct lens *l, double u, double v)
+struct vec3 lens_direction(const struct lens *l, double u, double v)
 {
     struct vec3 d = vec3_mad(vec3_scale(l->across, 2 * u - 1), 2 * v - 1, l->upwards);
     d = vec3_add(d, l->ahead);
     if (l->mirrored)
         d.z = -d.z;
-    return (struct ray){ .origin = l->origin,
-                         .direction = vec3_normalize(d),
-                         .t_max = RAY_UNBOUNDED,
-                         .from = PRIM_NONE,
-                         .surface = SURFACE_NONE };
+    return vec3_normalize(d);
 }

@@ -2,7 +2,6 @@
 #ifndef WRT_RENDER_CAMERA_H
 #define WRT_RENDER_CAMERA_H
 
-#include "math/ray.h"
 #include "scene/scene.h"
 
 /* original.md, section 3: direction(u, v) = across (2u - 1) + upwards (2v - 1) + ahead. */
@@ -15,7 +14,7 @@ struct lens {
  * proportions. */
 struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height);
 
-/* u and v run from 0 to 1, v upwards. */
-struct ray lens_ray(const struct lens *l, double u, double v);
+/* The unit direction to (u, v), which run from 0 to 1, v upwards. */
+struct vec3 lens_direction(const struct lens *l, double u, double v);
 
 #endif

@@ -7,7 +7,8 @@
 
 #include <stdatomic.h>
 
-enum { TILE = 16 };
+enum { TILE = 8 };
+_Static_assert(TILE * TILE == BATCH, "one sample a pixel of a tile makes a batch");
 
 /* A part of the picture cut into tiles that threads take in turn. */
 struct job {
@@ -22,9 +23,19 @@ struct job {
     size_t tiles;
 };
 
+static struct ray camera_ray(const struct tracer *t, struct vec3 direction)
+{
+    return (struct ray){ .origin = t->lens.origin,
+                         .direction = direction,
+                         .t_max = RAY_UNBOUNDED,
+                         .from = PRIM_NONE,
+                         .surface = SURFACE_NONE };
+}
+
 /* original.md, section 3: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
  * at the pixel's corner, n x n are spread around it. */
-static struct ray sample_ray(const struct tracer *t, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
+static struct vec3 sample_direction(const struct tracer *t, uint32_t i, uint32_t j, uint32_t k,
+                                    uint32_t l)
 {
     const struct render_options *o = t->options;
     double n = o->grid, x = 0, y = 0;
@@ -37,32 +48,15 @@ static struct ray sample_ray(const struct tracer *t, uint32_t i, uint32_t j, uin
         x = (k + x) / n - 1 / (2 * n);
         y = (l + y) / n - 1 / (2 * n);
     }
-    return lens_ray(&t->lens, (i + x) / o->width, (j + y) / o->height);
+    return lens_direction(&t->lens, (i + x) / o->width, (j + y) / o->height);
 }
 
-static struct vec3 pixel_colour(struct worker *w, uint32_t i, uint32_t j)
+/* The one ray of pixel (x, y), top left origin, of pictures that show something else. */
+static struct ray corner_ray(const struct tracer *t, uint32_t x, uint32_t y)
 {
-    uint32_t n = w->tracer->options->grid;
-    struct vec3 sum = vec3_all(0);
-    for (uint32_t k = 0; k < n; k++) {
-        for (uint32_t l = 0; l < n; l++) {
-            struct ray ray = sample_ray(w->tracer, i, j, k, l);
-            sum = vec3_add(sum, trace_colour(w, &ray));
-        }
-    }
-    double samples = (double)n * n;
-    return vec3(sum.x / samples, sum.y / samples, sum.z / samples);
-}
-
-static struct vec3 shown_colour(struct job *job, struct worker *w, uint32_t i, uint32_t j)
-{
-    const struct tracer *t = w->tracer;
-    if (t->options->show == SHOW_PICTURE)
-        return pixel_colour(w, i, j);
-    struct ray ray = lens_ray(&t->lens, i / (double)t->options->width,
-                              j / (double)t->options->height);
-    w->stats.primary++;
-    return show_colour(t, &ray, job->range, job->out->bytes != NULL);
+    const struct render_options *o = t->options;
+    uint32_t j = o->height - 1 - y;
+    return camera_ray(t, lens_direction(&t->lens, x / (double)o->width, j / (double)o->height));
 }
 
 struct tile {
@@ -85,15 +79,68 @@ static void report_progress(struct job *job, unsigned worker)
         p->report(p->context, (double)done / (double)job->tiles);
 }
 
+/* Sums the samples (k, l) of all the tile's pixels, row by row. */
+static void add_samples(struct worker *w, const struct tile *tile, uint32_t k, uint32_t l,
+                        struct vec3 *sums)
+{
+    struct ray rays[BATCH];
+    struct path paths[BATCH];
+    struct vec3 colours[BATCH];
+    const struct tracer *t = w->tracer;
+    uint32_t n = 0;
+    for (uint32_t y = tile->y0; y < tile->y1; y++) {
+        for (uint32_t x = tile->x0; x < tile->x1; x++) {
+            uint32_t j = t->options->height - 1 - y;
+            rays[n] = camera_ray(t, sample_direction(t, x, j, k, l));
+            paths[n++] = (struct path){ .index = 1, .crossed = SURFACE_NONE };
+        }
+    }
+    w->stats.primary += n;
+    trace_batch(w, 0, rays, paths, n, colours);
+    for (uint32_t i = 0; i < n; i++)
+        sums[i] = vec3_add(sums[i], colours[i]);
+}
+
+static void sample_tile(struct worker *w, const struct tile *tile, struct vec3 *colours)
+{
+    uint32_t n = w->tracer->options->grid;
+    for (uint32_t i = 0; i < BATCH; i++)
+        colours[i] = vec3_all(0);
+    for (uint32_t k = 0; k < n; k++)
+        for (uint32_t l = 0; l < n; l++)
+            add_samples(w, tile, k, l, colours);
+    double samples = (double)n * n;
+    for (uint32_t i = 0; i < BATCH; i++)
+        colours[i] = vec3(colours[i].x / samples, colours[i].y / samples, colours[i].z / samples);
+}
+
+static void show_tile(struct job *job, struct worker *w, const struct tile *tile,
+                      struct vec3 *colours)
+{
+    const struct tracer *t = w->tracer;
+    uint32_t n = 0;
+    for (uint32_t y = tile->y0; y < tile->y1; y++) {
+        for (uint32_t x = tile->x0; x < tile->x1; x++) {
+            struct ray ray = corner_ray(t, x, y);
+            colours[n++] = show_colour(t, &ray, job->range, job->out->bytes != NULL);
+        }
+    }
+    w->stats.primary += n;
+}
+
 static void render_tile(void *context, size_t number, unsigned worker)
 {
     struct job *job = context;
     struct tile tile = tile_of(job, number);
-    uint32_t height = job->tracer->options->height;
+    struct vec3 colours[BATCH];
+    if (job->tracer->options->show == SHOW_PICTURE)
+        sample_tile(&job->workers[worker], &tile, colours);
+    else
+        show_tile(job, &job->workers[worker], &tile, colours);
+    uint32_t n = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++)
         for (uint32_t x = tile.x0; x < tile.x1; x++)
-            picture_set(job->out, x - job->x0, y - job->y0,
-                        shown_colour(job, &job->workers[worker], x, height - 1 - y));
+            picture_set(job->out, x - job->x0, y - job->y0, colours[n++]);
     report_progress(job, worker);
 }
 
@@ -105,9 +152,7 @@ static void find_range_of_tile(void *context, size_t number, unsigned worker)
     double *range = job->ranges[worker];
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++) {
-            uint32_t j = t->options->height - 1 - y;
-            struct ray ray = lens_ray(&t->lens, x / (double)t->options->width,
-                                      j / (double)t->options->height);
+            struct ray ray = corner_ray(t, x, y);
             struct hit hit;
             if (!accel_closest(&t->accel, &ray, &hit))
                 continue;
@@ -152,12 +197,16 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
                           .options = options,
                           .lens = lens_of(&scene->camera, options->width, options->height),
                           .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps) };
+    t->skips = !options->no_skip && !options->brute_force;
     accel_build(&t->accel, &scene->geometry, options->brute_force);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
-    for (size_t i = 0; i < scene->surfaces.n; i++)
-        t->emissive |= scene->materials.at[scene->surfaces.at[i].material].kind ==
-                       MATERIAL_EMISSIVE;
+    t->emissive = mem_alloc(scene->surfaces.n, sizeof *t->emissive);
+    for (size_t i = 0; i < scene->surfaces.n; i++) {
+        const struct material *m = &scene->materials.at[scene->surfaces.at[i].material];
+        t->emissive[i] = m->kind == MATERIAL_EMISSIVE;
+        t->any_emissive |= t->emissive[i];
+    }
 }
 
 static void tracer_free(struct tracer *t)
@@ -165,6 +214,7 @@ static void tracer_free(struct tracer *t)
     for (size_t i = 0; i < t->scene->lights.n; i++)
         lamp_free(&t->lamps[i]);
     free(t->lamps);
+    free(t->emissive);
     accel_free(&t->accel);
 }
 
@@ -187,7 +237,7 @@ void render_scene(const struct scene *scene, const struct render_options *option
     struct job job = { .tracer = &tracer, .out = out };
     job.workers = mem_zalloc(options->threads, sizeof *job.workers);
     for (unsigned i = 0; i < options->threads; i++)
-        job.workers[i].tracer = &tracer;
+        worker_init(&job.workers[i], &tracer);
     if (options->show == SHOW_DEPTH && out->bytes)
         find_range(&job);
     cut_tiles(&job, options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
@@ -196,7 +246,7 @@ void render_scene(const struct scene *scene, const struct render_options *option
                                     .render_s = thread_seconds() - built };
     for (unsigned i = 0; i < options->threads; i++) {
         add_stats(stats, &job.workers[i].stats);
-        vec_free(&job.workers[i].paths);
+        worker_free(&job.workers[i]);
     }
     free(job.workers);
     tracer_free(&tracer);

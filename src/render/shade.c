@@ -19,49 +19,65 @@ static struct vec3 bumped(struct vec3 normal, struct vec3 texel)
     return vec3_normalize(vec3(normal.x + b.x, normal.y - b.y, normal.z));
 }
 
-struct shade_point shade_point_of(const struct scene *scene, const struct ray *ray,
-                                  struct hit *hit)
+static void apply_textures(struct shade_point *s, const struct scene *scene,
+                           const struct surface *surface, const struct hit *hit)
 {
-    const struct geometry *g = &scene->geometry;
-    const struct surface *surface = &scene->surfaces.at[g->prims.at[hit->prim].surface];
-    struct shade_point s = { .incoming = ray->direction,
-                             .prim = hit->prim,
-                             .surface = surface,
-                             .material = &scene->materials.at[surface->material] };
-    struct vec3 geometric;
-    s.p = geometry_hit_point(g, ray, hit, &geometric);
-    s.normal = surface_normal(scene, surface, hit, geometric);
-    if (surface->needs_uv)
-        s.uv = surface_uv(scene, surface, hit, s.p);
+    struct vec2 uv = surface_uv(scene, surface, hit, s->p);
     if (surface->normal_map != TEXTURE_NONE) {
-        s.uv = map_uv(&surface->uv, s.uv);
-        s.normal = bumped(s.normal, fetch(scene, surface->normal_map, s.uv));
+        uv = map_uv(&surface->uv, uv);
+        s->normal = bumped(s->normal, fetch(scene, surface->normal_map, uv));
     }
-    return s;
+    const struct material *m = s->material;
+    if (m->texture != TEXTURE_NONE)
+        s->diffuse = vec3_mul(fetch(scene, m->texture, map_uv(&m->uv, uv)), m->diffuse);
+}
+
+void shade_point_init(struct shade_point *s, const struct scene *scene, const struct ray *ray,
+                      struct hit *hit)
+{
+    struct vec3 geometric;
+    s->incoming = ray->direction;
+    s->prim = hit->prim;
+    s->surface = scene->geometry.prims.at[hit->prim].surface;
+    const struct surface *surface = &scene->surfaces.at[s->surface];
+    s->p = geometry_hit_point(&scene->geometry, ray, hit, &geometric);
+    s->normal = surface_normal(scene, surface, hit, geometric);
+    s->material = &scene->materials.at[surface->material];
+    s->diffuse = s->material->diffuse;
+    if (surface->needs_uv)
+        apply_textures(s, scene, surface, hit);
 }
 
 /* Diffuse reflection of light from a direction of cosine `cosine`.  A textured metal spreads the
  * mean of its three channels. */
-static struct vec3 diffuse_term(const struct material *m, struct vec3 texel, double cosine)
+static struct vec3 diffuse_term(const struct shade_point *s, double cosine)
 {
-    struct vec3 diffuse = m->texture == TEXTURE_NONE ? m->diffuse : vec3_mul(texel, m->diffuse);
-    struct vec3 lit = vec3_scale(diffuse, cosine);
+    const struct material *m = s->material;
+    struct vec3 lit = vec3_scale(s->diffuse, cosine);
     if (m->kind != MATERIAL_METAL || m->texture == TEXTURE_NONE)
         return lit;
     return vec3_scale(m->diffuse, (lit.x + lit.y + lit.z) / 3);
 }
 
-/* original.md, section 4: neither cosine is clamped. */
-static struct vec3 direct_term(const struct shade_point *s, struct vec3 texel, struct vec3 to_light)
+/* The highlight, unless it is nothing for certain: specular 0 times a power that is a number. */
+static struct vec3 add_highlight(struct vec3 light, const struct material *m, double cosine)
 {
-    const struct material *m = s->material;
+    struct vec3 k = m->specular;
+    bool black = k.x == 0 && k.y == 0 && k.z == 0;
+    if (black && m->exponent >= 0 && m->exponent <= 1e6 && m->exponent == floor(m->exponent))
+        return light;
+    return vec3_mad(light, m->exponent == 1 ? cosine : pow(cosine, m->exponent), k);
+}
+
+/* original.md, section 4: neither cosine is clamped. */
+static struct vec3 direct_term(const struct shade_point *s, struct vec3 to_light)
+{
     double cosine = vec3_dot(s->normal, to_light);
-    struct vec3 light = diffuse_term(m, texel, cosine);
-    if (m->kind == MATERIAL_LAMBERT)
+    struct vec3 light = diffuse_term(s, cosine);
+    if (s->material->kind == MATERIAL_LAMBERT)
         return light;
     struct vec3 mirrored = vec3_mad(to_light, -2 * cosine, s->normal);
-    double shine = pow(vec3_dot(s->incoming, mirrored), m->exponent);
-    return vec3_mad(light, shine, m->specular);
+    return add_highlight(light, s->material, vec3_dot(s->incoming, mirrored));
 }
 
 /* Intensity of the light at the point. */
@@ -74,28 +90,30 @@ static struct vec3 intensity_at(const struct light *l, struct vec3 p)
     return vec3(l->intensity.x / square, l->intensity.y / square, l->intensity.z / square);
 }
 
-struct vec3 shade_direct(struct worker *w, const struct shade_point *s, struct vec3 *intensity)
+/* Adds what this light does; share 0 leaves out a direct term that may be no number. */
+static void add_light(struct shade_light *sum, const struct shade_point *s,
+                      const struct light *light, double share)
+{
+    struct vec3 intensity = intensity_at(light, s->p), direct = s->diffuse;
+    sum->intensity = vec3_add(sum->intensity, intensity);
+    if (share == 0)
+        return;
+    if (s->material->kind != MATERIAL_EMISSIVE) {
+        struct vec3 to_light = vec3_normalize(vec3_sub(light->position, s->p));
+        direct = vec3_scale(direct_term(s, to_light), share);
+    }
+    sum->direct = vec3_add(sum->direct, vec3_mul(intensity, direct));
+}
+
+void shade_points(struct worker *w, uint32_t n)
 {
     const struct scene *scene = w->tracer->scene;
-    const struct material *m = s->material;
-    struct vec3 texel = vec3_all(1), sum = vec3_all(0);
-    if (m->texture != TEXTURE_NONE)
-        texel = fetch(scene, m->texture, map_uv(&m->uv, s->uv));
-    *intensity = vec3_all(0);
-    for (size_t i = 0; i < scene->lights.n; i++) {
-        const struct light *light = &scene->lights.at[i];
-        struct vec3 arriving = intensity_at(light, s->p);
-        *intensity = vec3_add(*intensity, arriving);
-        if (m->kind == MATERIAL_EMISSIVE) {
-            sum = vec3_add(sum, vec3_mul(arriving, vec3_mul(m->diffuse, texel)));
-            continue;
-        }
-        double share = lamp_share(w, &w->tracer->lamps[i], s);
-        if (share == 0) /* a direct term that is no number must not show */
-            continue;
-        struct vec3 to_light = vec3_normalize(vec3_sub(light->position, s->p));
-        struct vec3 direct = direct_term(s, texel, to_light);
-        sum = vec3_add(sum, vec3_mul(arriving, vec3_scale(direct, share)));
+    double shares[BATCH];
+    for (uint32_t i = 0; i < n; i++)
+        w->light[i] = (struct shade_light){ { 0, 0, 0 }, { 0, 0, 0 } };
+    for (size_t k = 0; k < scene->lights.n; k++) {
+        lamp_shares(w, &w->tracer->lamps[k], n, shares);
+        for (uint32_t i = 0; i < n; i++)
+            add_light(&w->light[i], &w->points[i], &scene->lights.at[k], shares[i]);
     }
-    return sum;
 }

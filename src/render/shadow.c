@@ -4,14 +4,21 @@
 
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force)
 {
-    *lamp = (struct lamp){ .light = light, .box = box_empty() };
-    if (light->kind == LIGHT_POINT)
-        return;
-    accel_build(&lamp->object, &light->object, brute_force);
-    for (size_t i = 0; i < light->points.n; i++) {
-        const struct light_point *point = &light->points.at[i];
-        lamp->box = box_add(lamp->box, point->position);
-        lamp->always_counts |= point->on_object || point->inside;
+    *lamp = (struct lamp){ .light = light, .box = { light->position, light->position } };
+    if (light->kind == LIGHT_AREA) {
+        accel_build(&lamp->object, &light->object, brute_force);
+        lamp->box = box_empty();
+        for (size_t i = 0; i < light->points.n; i++) {
+            const struct light_point *point = &light->points.at[i];
+            lamp->box = box_add(lamp->box, point->position);
+            lamp->always_counts |= point->on_object || point->inside;
+        }
+    }
+    lamp->center = box_center(lamp->box);
+    lamp->radius = vec3_length(vec3_sub(lamp->box.hi, lamp->center));
+    if (light->object.prims.n == 1 && light->object.spheres.n == 1) {
+        lamp->center = light->object.spheres.at[0].center;
+        lamp->radius = light->object.spheres.at[0].radius;
     }
 }
 
@@ -19,6 +26,46 @@ void lamp_free(struct lamp *lamp)
 {
     if (lamp->light->kind == LIGHT_AREA)
         accel_free(&lamp->object);
+}
+
+/* Distance from the nearest point of one box to the nearest of the other. */
+static double box_gap(struct box a, struct box b)
+{
+    struct vec3 d = vec3_max(vec3_sub(a.lo, b.hi), vec3_sub(b.lo, a.hi));
+    return vec3_length(vec3_max(d, vec3_all(0)));
+}
+
+/* The largest t at which a shadow ray from the box to a sample of the lamp still counts: the
+ * distance to the light's position over that to the sample.  Infinite when it cannot be told. */
+static double longest_shadow_ray(const struct lamp *lamp, struct box from)
+{
+    if (lamp->light->kind == LIGHT_POINT)
+        return 1;
+    struct vec3 p = lamp->light->position;
+    struct vec3 d = vec3_max(vec3_sub(p, from.lo), vec3_sub(from.hi, p));
+    return vec3_length(d) / box_gap(from, lamp->box) * (1 + 0x1p-30);
+}
+
+/* The shaft of all shadow rays from the box to the lamp; false when there is none to speak of: the
+ * points are close by, or among the samples. */
+static bool shaft_to_lamp(const struct tracer *t, const struct lamp *lamp, struct box from,
+                          struct shaft *shaft)
+{
+    double t_max = longest_shadow_ray(lamp, from);
+    if (!(t_max <= 4))
+        return false;
+    *shaft = shaft_between(&t->accel, from, lamp->box, t_max > 1 ? t_max : 1);
+    return true;
+}
+
+/* What can stand between the box and the lamp. */
+static void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
+                           struct target_list *list)
+{
+    struct shaft shaft;
+    list->usable = false;
+    if (shaft_to_lamp(t, lamp, from, &shaft))
+        shaft_list(&t->accel, &shaft, list);
 }
 
 static struct ray shadow_ray(const struct shade_point *s, struct vec3 target, double t_max)
@@ -31,54 +78,231 @@ static struct ray shadow_ray(const struct shade_point *s, struct vec3 target, do
                          .spawned = true };
 }
 
-/* Blocked when the nearest hit is not emissive. */
-static bool is_blocked(struct worker *w, const struct ray *ray)
+/* A ray is blocked when its nearest hit is not emissive; without emissive surfaces, when it hits
+ * anything. */
+static void find_blocked(struct worker *w, const struct target_list *list, const struct ray *rays,
+                         uint32_t n, bool *blocked)
 {
     const struct tracer *t = w->tracer;
-    struct hit hit;
-    w->stats.shadow++;
-    if (!t->emissive)
-        return accel_any(&t->accel, ray);
-    if (!accel_closest(&t->accel, ray, &hit))
-        return false;
-    uint32_t surface = t->scene->geometry.prims.at[hit.prim].surface;
-    uint32_t material = t->scene->surfaces.at[surface].material;
-    return t->scene->materials.at[material].kind != MATERIAL_EMISSIVE;
+    struct hit hits[BATCH];
+    w->stats.shadow += n;
+    if (!t->any_emissive) {
+        bundle_any(&t->accel, list, rays, n, blocked);
+        return;
+    }
+    bundle_closest(&t->accel, list, rays, n, hits);
+    for (uint32_t i = 0; i < n; i++)
+        blocked[i] = hits[i].prim != PRIM_NONE &&
+                     !t->emissive[t->scene->geometry.prims.at[hits[i].prim].surface];
+}
+
+/* What a ball of directions, seen from a point, is to a ball in the scene. */
+enum cover { COVER_NONE, COVER_SOME, COVER_ALL };
+
+/* The lamp as a shade point sees it. */
+struct aim {
+    struct vec3 p, to_center;
+    double distance;  /* to the lamp's center */
+    double tangent;   /* length of a tangent to the lamp's ball */
+    double radius;    /* of the lamp's ball */
+    double reach;     /* to the light's position: how far a shadow ray goes */
+};
+
+/* Rounding errors of the tests below are far smaller than this, relative to the distances. */
+#define COVER_MARGIN 1e-6
+
+/* Whether a ball at center c can stand in the way of the lamp's ball, or hides all of it: compares
+ * the angle between both centers with the sum and the difference of both angular radii, by the
+ * cosines times both distances.  power: |p - c|^2 - r^2 >= 0. */
+static enum cover ball_cover(const struct aim *aim, struct vec3 c, double r, double power)
+{
+    struct vec3 g = vec3_sub(c, aim->p);
+    double far = vec3_length(g), along = vec3_dot(g, aim->to_center), tangent = sqrt(power);
+    double margin = COVER_MARGIN * far * aim->distance;
+    if (far - r > aim->reach * (1 + COVER_MARGIN))
+        return COVER_NONE;
+    if (along < tangent * aim->tangent - r * aim->radius - margin)
+        return COVER_NONE;
+    bool larger = r * aim->distance > aim->radius * far;
+    if (larger && along > tangent * aim->tangent + r * aim->radius + margin)
+        return COVER_ALL;
+    return COVER_SOME;
+}
+
+static enum cover sphere_cover(const struct aim *aim, const struct sphere *s)
+{
+    double power = sphere_power(s, vec3_sub(aim->p, s->center), vec3_largest(aim->p),
+                                SPAWN_TOLERANCE);
+    if (!(power >= 0) || !(aim->distance > aim->radius))
+        return COVER_SOME;
+    enum cover cover = ball_cover(aim, s->center, s->radius, power);
+    /* The first hit from outside is no farther than the tangent; from the sphere, than through it. */
+    double farthest = power == 0 ? 2 * s->radius : sqrt(power);
+    if (cover == COVER_ALL && !(farthest < aim->reach * (1 - COVER_MARGIN)))
+        return COVER_SOME;
+    return cover;
+}
+
+static enum cover cylinder_cover(const struct aim *aim, const struct cylinder *c)
+{
+    struct vec3 middle = vec3_mad(c->base, 0.5 * c->height, c->axis);
+    struct vec3 f = vec3_sub(aim->p, middle);
+    double r2 = 0.25 * c->height * c->height + c->radius * c->radius;
+    double power = vec3_dot(f, f) - r2;
+    if (!(power > COVER_MARGIN * r2) || !(aim->distance > aim->radius))
+        return COVER_SOME;
+    return ball_cover(aim, middle, sqrt(r2), power) == COVER_NONE ? COVER_NONE : COVER_SOME;
+}
+
+static struct aim aim_at(const struct lamp *lamp, struct vec3 p)
+{
+    struct vec3 to_center = vec3_sub(lamp->center, p);
+    double square = vec3_dot(to_center, to_center);
+    return (struct aim){ .p = p,
+                         .to_center = to_center,
+                         .distance = sqrt(square),
+                         .tangent = sqrt(fmax(square - lamp->radius * lamp->radius, 0)),
+                         .radius = lamp->radius,
+                         .reach = vec3_length(vec3_sub(lamp->light->position, p)) };
+}
+
+/* Leaves in the list what can stand between this one point and the lamp; false when one of its
+ * members alone hides all of the lamp. */
+static bool narrow_list(const struct tracer *t, const struct lamp *lamp,
+                        const struct shade_point *s, struct target_list *list)
+{
+    const struct geometry *g = &t->scene->geometry;
+    struct aim aim = aim_at(lamp, s->p);
+    struct shaft shaft;
+    bool has_shaft = shaft_to_lamp(t, lamp, (struct box){ s->p, s->p }, &shaft);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < list->n; i++) {
+        struct target target = list->at[i];
+        enum cover cover = COVER_SOME;
+        if (target.kind == PRIM_SPHERE)
+            cover = sphere_cover(&aim, &g->spheres.at[target.index]);
+        else if (target.kind == PRIM_CYLINDER)
+            cover = cylinder_cover(&aim, &g->cylinders.at[target.index]);
+        else if (target.prim == s->prim || (has_shaft && !shaft_touches(&t->accel, &shaft, target)))
+            cover = COVER_NONE;
+        if (cover == COVER_ALL && !t->any_emissive)
+            return false;
+        if (cover != COVER_NONE)
+            list->at[n++] = target;
+    }
+    list->n = n;
+    return true;
 }
 
 /* Whether the ray from the point through the grid point meets the light's object. */
-static bool point_counts(const struct lamp *lamp, const struct light_point *point,
-                         const struct shade_point *s, bool no_skip)
+static bool sample_counts(const struct lamp *lamp, const struct light_point *sample,
+                          const struct shade_point *s, bool skips)
 {
-    if (point->on_object || (point->inside && !no_skip))
+    if (sample->on_object || (sample->inside && skips))
         return true;
-    struct ray ray = shadow_ray(s, point->position, RAY_UNBOUNDED);
+    struct ray ray = shadow_ray(s, sample->position, RAY_UNBOUNDED);
     ray.from = PRIM_NONE;
     return accel_any(&lamp->object, &ray);
 }
 
-static double area_share(struct worker *w, const struct lamp *lamp, const struct shade_point *s)
+struct tally {
+    uint64_t counted, lit;
+};
+
+static void add_to_tally(struct worker *w, const struct target_list *list, const struct ray *rays,
+                         const uint32_t *counts, uint32_t n, struct tally *tally)
+{
+    bool blocked[BATCH];
+    find_blocked(w, list, rays, n, blocked);
+    for (uint32_t i = 0; i < n; i++) {
+        tally->counted += counts[i];
+        tally->lit += blocked[i] ? 0 : counts[i];
+    }
+}
+
+/* The share of the lamp's samples that are lit, each tried. */
+static double sampled_share(struct worker *w, const struct lamp *lamp,
+                            const struct target_list *list, const struct shade_point *s)
 {
     const struct light *light = lamp->light;
     double reach = vec3_length(vec3_sub(light->position, s->p));
-    uint64_t counted = 0, lit = 0;
+    struct tally tally = { 0, 0 };
+    struct ray rays[BATCH];
+    uint32_t counts[BATCH], n = 0;
     for (size_t i = 0; i < light->points.n; i++) {
-        const struct light_point *point = &light->points.at[i];
-        if (!point_counts(lamp, point, s, w->tracer->options->no_skip))
+        const struct light_point *sample = &light->points.at[i];
+        if (!sample_counts(lamp, sample, s, w->tracer->skips))
             continue;
-        struct ray ray = shadow_ray(s, point->position, 0);
-        double t_max = reach / vec3_length(ray.direction);
-        ray.t_max = t_max <= RAY_UNBOUNDED ? t_max : RAY_UNBOUNDED;
-        counted += point->count;
-        lit += is_blocked(w, &ray) ? 0 : point->count;
+        rays[n] = shadow_ray(s, sample->position, 0);
+        double t_max = reach / vec3_length(rays[n].direction);
+        rays[n].t_max = t_max <= RAY_UNBOUNDED ? t_max : RAY_UNBOUNDED;
+        counts[n++] = sample->count;
+        if (n == BATCH) {
+            add_to_tally(w, list, rays, counts, n, &tally);
+            n = 0;
+        }
     }
-    return counted ? (double)lit / (double)counted : 0;
+    if (n > 0)
+        add_to_tally(w, list, rays, counts, n, &tally);
+    return tally.counted ? (double)tally.lit / (double)tally.counted : 0;
 }
 
-double lamp_share(struct worker *w, const struct lamp *lamp, const struct shade_point *s)
+/* `list`: what can stand between any point of the batch and the lamp. */
+static double area_share(struct worker *w, const struct lamp *lamp,
+                         const struct target_list *list, const struct shade_point *s)
 {
-    if (lamp->light->kind == LIGHT_AREA)
-        return area_share(w, lamp, s);
-    struct ray ray = shadow_ray(s, lamp->light->position, 1);
-    return is_blocked(w, &ray) ? 0 : 1;
+    const struct tracer *t = w->tracer;
+    struct target_list own = { .usable = false };
+    if (!t->skips)
+        return sampled_share(w, lamp, &own, s);
+    if (list->usable)
+        own = *list;
+    else
+        list_shadowers(t, lamp, (struct box){ s->p, s->p }, &own);
+    bool hidden = own.usable && !narrow_list(t, lamp, s, &own);
+    bool in_the_open = own.usable && own.n == 0 && lamp->always_counts;
+    if (!hidden && !in_the_open)
+        return sampled_share(w, lamp, &own, s);
+    w->stats.shadow_skipped += lamp->light->points.n;
+    return hidden ? 0 : 1;
+}
+
+static void point_shares(struct worker *w, const struct lamp *lamp,
+                         const struct target_list *list, uint32_t n, double *shares)
+{
+    struct ray rays[BATCH];
+    bool blocked[BATCH];
+    uint32_t which[BATCH], count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        shares[i] = 1;
+        if (w->points[i].material->kind == MATERIAL_EMISSIVE)
+            continue;
+        which[count] = i;
+        rays[count++] = shadow_ray(&w->points[i], lamp->light->position, 1);
+    }
+    if (count == 0 || (list->usable && list->n == 0)) {
+        w->stats.shadow_skipped += count;
+        return;
+    }
+    find_blocked(w, list, rays, count, blocked);
+    for (uint32_t i = 0; i < count; i++)
+        shares[which[i]] = blocked[i] ? 0 : 1;
+}
+
+void lamp_shares(struct worker *w, const struct lamp *lamp, uint32_t n, double *shares)
+{
+    struct target_list list = { .usable = false };
+    if (w->tracer->skips && n > 1) {
+        struct box box = box_empty();
+        for (uint32_t i = 0; i < n; i++)
+            box = box_add(box, w->points[i].p);
+        list_shadowers(w->tracer, lamp, box, &list);
+    }
+    if (lamp->light->kind == LIGHT_POINT) {
+        point_shares(w, lamp, &list, n, shares);
+        return;
+    }
+    for (uint32_t i = 0; i < n; i++)
+        shares[i] = w->points[i].material->kind == MATERIAL_EMISSIVE
+                        ? 1 : area_share(w, lamp, &list, &w->points[i]);
 }

@@ -2,115 +2,191 @@
 
 #include "render/tracer.h"
 
+void worker_init(struct worker *w, const struct tracer *tracer)
+{
+    *w = (struct worker){ .tracer = tracer };
+}
+
+static void offspring_free(struct offspring *o)
+{
+    vec_free(&o->rays);
+    vec_free(&o->paths);
+}
+
+void worker_free(struct worker *w)
+{
+    for (size_t i = 0; i < w->levels.n; i++) {
+        offspring_free(&w->levels.at[i]->reflected);
+        offspring_free(&w->levels.at[i]->refracted);
+        free(w->levels.at[i]);
+    }
+    vec_free(&w->levels);
+}
+
+/* The level of this depth, emptied.  Levels are made one after another. */
+static struct level *level_at(struct worker *w, uint32_t depth)
+{
+    if (depth == w->levels.n)
+        vec_push(&w->levels, mem_zalloc(1, sizeof *w->levels.at[0]));
+    struct level *level = w->levels.at[depth];
+    level->reflected.rays.n = level->reflected.paths.n = 0;
+    level->refracted.rays.n = level->refracted.paths.n = 0;
+    return level;
+}
+
 static bool is_zero(struct vec3 v)
 {
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-static struct ray spawned_ray(const struct shade_point *s, struct vec3 direction)
+static void add_ray(struct offspring *o, const struct shade_point *s, struct vec3 direction,
+                    struct path path)
 {
-    return (struct ray){ .origin = s->p,
-                         .direction = direction,
-                         .t_max = RAY_UNBOUNDED,
-                         .from = s->prim,
-                         .surface = SURFACE_NONE,
-                         .spawned = true };
+    vec_push(&o->rays, (struct ray){ .origin = s->p,
+                                     .direction = direction,
+                                     .t_max = RAY_UNBOUNDED,
+                                     .from = s->prim,
+                                     .surface = SURFACE_NONE,
+                                     .spawned = true });
+    vec_push(&o->paths, path);
 }
 
-static void push_reflection(struct worker *w, const struct path *path, const struct shade_point *s,
-                            struct vec3 weight)
+static void add_reflection(struct level *level, const struct shade_point *s, struct vec3 weight)
 {
     double cosine = vec3_dot(s->normal, s->incoming);
     struct vec3 direction = vec3_normalize(vec3_mad(s->incoming, -2 * cosine, s->normal));
-    w->stats.reflection++;
-    vec_push(&w->paths, (struct path){ .ray = spawned_ray(s, direction),
-                                       .weight = weight,
-                                       .index = 1,
-                                       .depth = path->depth + 1,
-                                       .crossed = SURFACE_NONE });
+    add_ray(&level->reflected, s, direction, (struct path){ 1, SURFACE_NONE, s->ray, weight });
 }
 
 /* Which surface a refracted ray is tested against alone before all others. */
-static uint32_t surface_crossed(const struct worker *w, const struct shade_point *s, bool inside)
+static uint32_t surface_crossed(const struct scene *scene, const struct shade_point *s)
 {
-    uint32_t number = (uint32_t)(s->surface - w->tracer->scene->surfaces.at);
-    enum surface_kind kind = s->surface->kind;
+    enum surface_kind kind = scene->surfaces.at[s->surface].kind;
     if (kind == SURFACE_SPHERE || kind == SURFACE_CYLINDER)
-        return number;
-    return kind == SURFACE_MESH && !inside ? number : SURFACE_NONE;
+        return s->surface;
+    return kind == SURFACE_MESH && !s->inside ? s->surface : SURFACE_NONE;
 }
 
-/* original.md, section 4. */
-static void push_refraction(struct worker *w, const struct path *path, const struct shade_point *s,
-                            bool inside, struct vec3 weight)
+/* original.md, section 4.  `index` is that of the arriving ray. */
+static void add_refraction(struct level *level, const struct scene *scene,
+                           const struct shade_point *s, double index, struct vec3 weight)
 {
-    double ior = s->material->ior, eta = inside ? ior : path->index / ior;
-    struct vec3 normal = inside ? vec3_neg(s->normal) : s->normal;
+    double ior = s->material->ior, eta = s->inside ? ior : index / ior;
+    struct vec3 normal = s->inside ? vec3_neg(s->normal) : s->normal;
     double c = -vec3_dot(s->incoming, normal), k = 1 - eta * eta * (1 - c * c);
     if (!(k > 0))
         return;
     struct vec3 direction = vec3_scale(s->incoming, eta);
     direction = vec3_mad(direction, eta * c - sqrt(k), normal);
-    w->stats.refraction++;
-    vec_push(&w->paths, (struct path){ .ray = spawned_ray(s, direction),
-                                       .weight = weight,
-                                       .index = inside ? 1 : ior,
-                                       .depth = path->depth + 1,
-                                       .crossed = surface_crossed(w, s, inside) });
+    add_ray(&level->refracted, s, direction,
+            (struct path){ s->inside ? 1 : ior, surface_crossed(scene, s), s->ray, weight });
 }
 
-/* The hit of the ray with its own surface alone. */
-static bool hits_crossed_surface(const struct tracer *t, const struct path *path, struct hit *hit)
+/* The hit of the ray with the surface it crossed, alone. */
+static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_t crossed,
+                                 struct hit *hit)
 {
-    const struct surface *surface = &t->scene->surfaces.at[path->crossed];
+    const struct surface *surface = &t->scene->surfaces.at[crossed];
     if (surface->prim_count == 1) {
-        struct ray_frame frame = ray_frame_of(&path->ray);
-        *hit = hit_none(path->ray.t_max);
-        return ray_has_direction(&path->ray) &&
-               geometry_intersect(&t->scene->geometry, surface->first_prim, &path->ray, &frame,
-                                  hit);
+        struct ray_frame frame = ray_frame_of(&ray);
+        *hit = hit_none(ray.t_max);
+        return ray_has_direction(&ray) && geometry_intersect(&t->scene->geometry,
+                                                             surface->first_prim, &ray, &frame,
+                                                             hit);
     }
-    struct ray ray = path->ray;
-    ray.surface = path->crossed;
+    ray.surface = crossed;
     return accel_closest(&t->accel, &ray, hit);
 }
 
-/* Traces one ray: returns what it adds to the picture itself and notes the rays it gives rise to.
- * Their share does not depend on the light, so each is traced once, for the sum of all lights. */
-static struct vec3 trace_path(struct worker *w, const struct path *path)
+/* What the rays can hit at all, nearest first. */
+static void find_targets(const struct tracer *t, const struct ray *rays, uint32_t n,
+                         struct target_list *list)
 {
-    const struct tracer *t = w->tracer;
-    struct hit hit;
-    bool inside = path->crossed != SURFACE_NONE && hits_crossed_surface(t, path, &hit);
-    if (!inside && !accel_closest(&t->accel, &path->ray, &hit))
-        return vec3_all(0);
-    struct shade_point s = shade_point_of(t->scene, &path->ray, &hit);
-    struct vec3 intensity, direct = shade_direct(w, &s, &intensity);
-    if (path->depth < t->options->depth) {
-        const struct material *m = s.material;
-        struct vec3 weight = vec3_mul(path->weight, intensity);
-        struct vec3 reflected = vec3_mul(weight, m->reflection);
-        struct vec3 refracted = vec3_mul(weight, m->refraction);
-        if (!is_zero(reflected))
-            push_reflection(w, path, &s, reflected);
-        if (!is_zero(refracted))
-            push_refraction(w, path, &s, inside, refracted);
+    struct box origins = box_empty(), directions = box_empty();
+    list->usable = false;
+    if (!t->skips || n == 1)
+        return;
+    for (uint32_t i = 0; i < n; i++) {
+        origins = box_add(origins, rays[i].origin);
+        directions = box_add(directions, rays[i].direction);
     }
-    return vec3_mul(path->weight, direct);
+    struct shaft shaft = shaft_of_rays(&t->accel, origins, directions);
+    shaft_list(&t->accel, &shaft, list);
+    if (list->usable)
+        shaft_sort(&t->accel, &shaft, list);
 }
 
-struct vec3 trace_colour(struct worker *w, const struct ray *ray)
+/* Fills in w->points with the hits of the batch; returns how many there are. */
+static uint32_t find_points(struct worker *w, const struct ray *rays, const struct path *paths,
+                            uint32_t n)
 {
-    struct vec3 colour = vec3_all(0);
-    w->stats.primary++;
-    w->paths.n = 0;
-    vec_push(&w->paths, (struct path){ .ray = *ray,
-                                       .weight = vec3_all(1),
-                                       .index = 1,
-                                       .crossed = SURFACE_NONE });
-    while (w->paths.n > 0) {
-        struct path path = w->paths.at[--w->paths.n];
-        colour = vec3_add(colour, trace_path(w, &path));
+    const struct tracer *t = w->tracer;
+    struct target_list list;
+    struct hit hits[BATCH];
+    uint32_t found = 0;
+    find_targets(t, rays, n, &list);
+    bundle_closest(&t->accel, &list, rays, n, hits);
+    for (uint32_t i = 0; i < n; i++) {
+        struct hit first;
+        bool inside = paths[i].crossed != SURFACE_NONE &&
+                      hits_crossed_surface(t, rays[i], paths[i].crossed, &first);
+        if (!inside && hits[i].prim == PRIM_NONE)
+            continue;
+        struct shade_point *s = &w->points[found++];
+        shade_point_init(s, t->scene, &rays[i], inside ? &first : &hits[i]);
+        s->ray = i;
+        s->inside = inside;
     }
-    return colour;
+    return found;
+}
+
+/* Notes the rays that the hit gives rise to.  Their share does not depend on the light, so each is
+ * traced once, for the sum of all lights. */
+static void add_offspring(struct level *level, const struct scene *scene,
+                          const struct shade_point *s, struct vec3 intensity, double index)
+{
+    struct vec3 reflected = vec3_mul(intensity, s->material->reflection);
+    struct vec3 refracted = vec3_mul(intensity, s->material->refraction);
+    if (!is_zero(reflected))
+        add_reflection(level, s, reflected);
+    if (!is_zero(refracted))
+        add_refraction(level, scene, s, index, refracted);
+}
+
+/* Traces the rays and adds their share to their parents' colours. */
+static void trace_offspring(struct worker *w, struct level *level, uint32_t depth,
+                            const struct offspring *o, struct vec3 *colours)
+{
+    for (size_t first = 0; first < o->rays.n; first += BATCH) {
+        uint32_t n = o->rays.n - first < BATCH ? (uint32_t)(o->rays.n - first) : BATCH;
+        const struct path *paths = o->paths.at + first;
+        trace_batch(w, depth + 1, o->rays.at + first, paths, n, level->colours);
+        for (uint32_t i = 0; i < n; i++) {
+            struct vec3 *parent = &colours[paths[i].parent];
+            *parent = vec3_add(*parent, vec3_mul(paths[i].weight, level->colours[i]));
+        }
+    }
+}
+
+/* A ray's colour is its direct light, then its reflection, then its refraction: the order of the
+ * sum, and so every bit of it, does not depend on what else is in the batch. */
+void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const struct path *paths,
+                 uint32_t n, struct vec3 *colours)
+{
+    struct level *level = level_at(w, depth);
+    const struct tracer *t = w->tracer;
+    for (uint32_t i = 0; i < n; i++)
+        colours[i] = vec3_all(0);
+    uint32_t found = find_points(w, rays, paths, n);
+    shade_points(w, found);
+    for (uint32_t i = 0; i < found; i++) {
+        const struct shade_point *s = &w->points[i];
+        colours[s->ray] = w->light[i].direct;
+        if (depth < t->options->depth)
+            add_offspring(level, t->scene, s, w->light[i].intensity, paths[s->ray].index);
+    }
+    w->stats.reflection += level->reflected.rays.n;
+    w->stats.refraction += level->refracted.rays.n;
+    trace_offspring(w, level, depth, &level->reflected, colours);
+    trace_offspring(w, level, depth, &level->refracted, colours);
 }

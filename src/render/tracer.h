@@ -1,18 +1,25 @@
 /* What the parts of the renderer share: one tracer a picture, read by all threads, and one worker
- * a thread. */
+ * a thread.
+ *
+ * Rays are traced in batches of one depth, so that what they have in common is found out only once:
+ * what they can hit at all, and what can stand between their hits and each light. */
 #ifndef WRT_RENDER_TRACER_H
 #define WRT_RENDER_TRACER_H
 
-#include "accel/bvh.h"
+#include "accel/shaft.h"
 #include "render/camera.h"
 #include "render/render.h"
+
+enum { BATCH = BUNDLE_LIMIT };
 
 /* A light made ready. */
 struct lamp {
     const struct light *light;
     struct accel object; /* area lights: the light's own surface */
-    struct box box;      /* of the sample points */
-    bool always_counts;  /* some point counts seen from anywhere */
+    struct box box;      /* of the sample points, or of the position */
+    struct vec3 center;  /* of a ball that the rays through all counted samples meet */
+    double radius;
+    bool always_counts;  /* some sample point counts seen from anywhere */
 };
 
 struct tracer {
@@ -21,51 +28,76 @@ struct tracer {
     struct accel accel;
     struct lens lens;
     struct lamp *lamps; /* one a light of the scene */
-    bool emissive;      /* the scene holds a surface that does not block light */
+    bool *emissive;     /* by surface: it does not block light */
+    bool any_emissive;
+    bool skips;         /* work whose outcome is known beforehand is left out */
 };
 
-/* A ray to be traced, and what its colour is multiplied with. */
+/* Where a ray comes from. */
 struct path {
-    struct ray ray;
-    struct vec3 weight;
-    double index;      /* of refraction, carried by the ray */
-    uint32_t depth;
-    uint32_t crossed;  /* surface it was refracted at and meets first, or SURFACE_NONE */
-};
-
-struct worker {
-    const struct tracer *tracer;
-    struct render_stats stats;
-    VEC(struct path) paths; /* still to be traced */
+    double index;       /* of refraction, carried by the ray */
+    uint32_t crossed;   /* surface it was refracted at and meets first, or SURFACE_NONE */
+    uint32_t parent;    /* place in its batch of the ray that gave rise to it */
+    struct vec3 weight; /* of its colour in its parent's */
 };
 
 /* A hit and what shading needs of it. */
 struct shade_point {
     struct vec3 incoming; /* unit, direction of travel */
     struct vec3 p, normal;
-    uint32_t prim;
-    const struct surface *surface;
+    struct vec3 diffuse; /* the material's, times its texel */
+    uint32_t prim, surface;
+    uint32_t ray; /* place in the batch */
+    bool inside;  /* hit from inside, see original.md, section 4, refraction */
     const struct material *material;
-    struct vec2 uv;
 };
 
-/* shadow.c: the share of the light that reaches the point. */
-double lamp_share(struct worker *w, const struct lamp *lamp, const struct shade_point *s);
+/* Light that arrives at a shade point. */
+struct shade_light {
+    struct vec3 direct;    /* reflected towards the eye */
+    struct vec3 intensity; /* sum over all lights, shadowed or not */
+};
+
+/* Rays of the next depth. */
+struct offspring {
+    VEC(struct ray) rays;
+    VEC(struct path) paths;
+};
+
+/* What one depth needs while deeper ones are traced. */
+struct level {
+    struct offspring reflected, refracted;
+    struct vec3 colours[BATCH]; /* of the deeper batch */
+};
+
+struct worker {
+    const struct tracer *tracer;
+    struct render_stats stats;
+    VEC(struct level *) levels;       /* by depth, made when first needed */
+    struct shade_point points[BATCH]; /* hits of the batch being shaded */
+    struct shade_light light[BATCH];
+};
+
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force);
 void lamp_free(struct lamp *lamp);
 
+/* shadow.c: the share of the lamp's light that reaches each of the first n of w->points. */
+void lamp_shares(struct worker *w, const struct lamp *lamp, uint32_t n, double *shares);
+
 /* shade.c */
-struct shade_point shade_point_of(const struct scene *scene, const struct ray *ray,
-                                  struct hit *hit);
-/* Light that arrives directly, summed over all lights; *intensity becomes the sum of their
- * intensities at the point. */
-struct vec3 shade_direct(struct worker *w, const struct shade_point *s, struct vec3 *intensity);
+void shade_point_init(struct shade_point *s, const struct scene *scene, const struct ray *ray,
+                      struct hit *hit);
+/* Fills in w->light for the first n of w->points. */
+void shade_points(struct worker *w, uint32_t n);
 
-/* trace.c: the colour seen along a camera ray. */
-struct vec3 trace_colour(struct worker *w, const struct ray *ray);
+/* trace.c: the colours seen along n <= BATCH rays. */
+void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const struct path *paths,
+                 uint32_t n, struct vec3 *colours);
+void worker_init(struct worker *w, const struct tracer *tracer);
+void worker_free(struct worker *w);
 
-/* show.c: what the camera ray shows instead of its colour.  `nearest` and `farthest` are the
- * distances in the whole picture. */
+/* show.c: what the camera ray shows instead of its colour.  `range` holds the smallest and the
+ * largest distance in the whole picture. */
 struct vec3 show_colour(const struct tracer *t, const struct ray *ray, const double range[2],
                         bool bytes);
 

@@ -63,7 +63,9 @@ void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, ui
 {
     assert(v0 < g->vertices.n && v1 < g->vertices.n && v2 < g->vertices.n);
     const struct vec3 *v = g->vertices.at;
-    struct triangle t = { .vertex = { v0, v1, v2 } };
+    struct box b = box_add(box_add((struct box){ v[v0], v[v0] }, v[v1]), v[v2]);
+    struct triangle t = { .vertex = { v0, v1, v2 },
+                          .reach = fmax(vec3_largest(b.lo), vec3_largest(b.hi)) };
     t.normal = triangle_unit_normal(v[v0], v[v1], v[v2], &t.slim);
     add_prim(g, PRIM_TRIANGLE, g->triangles.n, surface);
     vec_push(&g->triangles, t);

@@ -35,6 +35,7 @@ struct cylinder {
 struct triangle {
     uint32_t vertex[3];
     bool slim;          /* a sharp corner at v0: its normal is less exact than its vertices */
+    double reach;       /* largest |coordinate| of the corners */
     struct vec3 normal; /* unit, (v1 - v0) x (v2 - v0); zero for a triangle without area */
 };
 

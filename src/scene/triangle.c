@@ -24,14 +24,6 @@ struct box triangle_bounds(const struct geometry *g, uint32_t prim)
     return corner_bounds(g, triangle_at(g, prim));
 }
 
-/* The largest coordinate of the corners. */
-static double reach_of(const struct geometry *g, const struct triangle *t)
-{
-    double a = vec3_largest(corner_at(g, t, 0)), b = vec3_largest(corner_at(g, t, 1));
-    double c = vec3_largest(corner_at(g, t, 2)), ab = a > b ? a : b;
-    return ab > c ? ab : c;
-}
-
 /* The edges are brought to the order of 1 by a power of two, so that no product under- or
  * overflows; divided by its length, a normal along a coordinate is exactly that, whatever the
  * triangle: coplanar triangles then meet a ray at equal distances. */
@@ -74,7 +66,7 @@ static double clamp_to_bounds(const struct geometry *g, const struct triangle *t
 {
     struct box b = corner_bounds(g, tri);
     struct vec3 o = ray->origin, d = ray->direction;
-    double pad = 0.5 * BOX_PADDING * (reach_of(g, tri) + vec3_largest(o));
+    double pad = 0.5 * BOX_PADDING * (tri->reach + vec3_largest(o));
     double near = -INFINITY, far = INFINITY, largest = vec3_largest(d);
     for (int axis = 0; axis < 3; axis++) {
         double inverse = ray_inverse(vec3_at(d, axis), largest), e = pad * fabs(inverse);
@@ -98,7 +90,7 @@ double triangle_distance(const struct geometry *g, const struct triangle *tri,
     struct vec3 n = tri->normal;
     double distance = vec3_dot(n, vec3_sub(corner_at(g, tri, 0), ray->origin));
     double speed = vec3_dot(n, ray->direction);
-    if (fabs(distance) <= frame->tolerance * (frame->reach + reach_of(g, tri)))
+    if (fabs(distance) <= frame->tolerance * (frame->reach + tri->reach))
         return 0; /* the origin is on the plane */
     if (!tri->slim && speed * speed >= 0x1p-4 * frame->square)
         return distance / speed;
@@ -109,7 +101,7 @@ double triangle_distance(const struct geometry *g, const struct triangle *tri,
 bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
 {
     const struct triangle *t = triangle_at(g, prim);
-    double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + reach_of(g, t));
+    double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + t->reach);
     if (fabs(vec3_dot(t->normal, vec3_sub(corner_at(g, t, 0), p))) > rounding)
         return false;
     for (int i = 0; i < 3; i++) {
@@ -121,15 +113,25 @@ bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
     return vec3_largest(t->normal) > 0;
 }
 
+/* The weights from plain products, unless these are so much larger than the area that rounding
+ * would show. */
 static void find_weights(const struct geometry *g, const struct triangle *t, const struct ray *ray,
                          struct hit *hit)
 {
     struct ray_frame frame = ray_frame_of(ray);
-    struct point2 corner[3];
+    struct point2 k[3];
     for (int i = 0; i < 3; i++)
-        corner[i] = triangle_sheared(corner_at(g, t, i), ray->origin, &frame);
-    double u = edge(corner[2], corner[1]), v = edge(corner[0], corner[2]);
-    double w = edge(corner[1], corner[0]), area = u + v + w;
+        k[i] = triangle_sheared(corner_at(g, t, i), ray->origin, &frame);
+    double u = k[2].x * k[1].y - k[2].y * k[1].x, v = k[0].x * k[2].y - k[0].y * k[2].x;
+    double w = k[1].x * k[0].y - k[1].y * k[0].x, area = u + v + w, largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = fmax(largest, fmax(fabs(k[i].x), fabs(k[i].y)));
+    if (!(largest * largest <= 16 * fabs(area))) {
+        u = edge(k[2], k[1]);
+        v = edge(k[0], k[2]);
+        w = edge(k[1], k[0]);
+        area = u + v + w;
+    }
     hit->b1 = v / area;
     hit->b2 = w / area;
 }
