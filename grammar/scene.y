@@ -103,7 +103,7 @@ statements:
   %empty                      { $$ = (struct ast_list){0}; }
 | statements[list] statement  { $$ = ast_append($list, $statement); }
 | statements[list] SEMICOLON  { $$ = $list; }
-| statements[list] error      { $$ = ast_append($list, ast_node(p->ast, AST_ERROR, @error)); }
+| statements[list] error      { $$ = ast_append_error(p->ast, $list, @error); }
 ;
 
 statement:
@@ -118,7 +118,7 @@ statement:
 
 block:
   LBRACE members RBRACE        { $$ = $members; }
-| LBRACE members error RBRACE  { $$ = ast_append($members, ast_node(p->ast, AST_ERROR, @error)); }
+| LBRACE members error RBRACE  { $$ = ast_append_error(p->ast, $members, @error); }
 ;
 
 members:
@@ -127,7 +127,7 @@ members:
 | members[list] COMMA       { $$ = $list; }
 | members[list] SEMICOLON   { $$ = $list; }
 | members[list] error member
-    { $$ = ast_append(ast_append($list, ast_node(p->ast, AST_ERROR, @error)), $member); }
+    { $$ = ast_append(ast_append_error(p->ast, $list, @error), $member); }
 ;
 
 member:

@@ -9,10 +9,10 @@ struct walk {
     int negative[3]; /* 1 where the ray runs down the axis: its near plane is the upper one */
 };
 
-static struct walk walk_along(const struct accel *a, const struct ray *ray, double origin_reach)
+static struct walk walk_along(const struct accel *a, const struct ray *ray)
 {
     struct vec3 o = ray->origin, d = ray->direction;
-    double padding = BOX_PADDING * (a->reach + origin_reach), largest = vec3_largest(d);
+    double padding = BOX_PADDING * (a->reach + vec3_largest(o)), largest = vec3_largest(d);
     double x = copysign(padding, d.x), y = copysign(padding, d.y), z = copysign(padding, d.z);
     return (struct walk){ { o.x + x, o.y + y, o.z + z },
                           { o.x - x, o.y - y, o.z - z },
@@ -65,7 +65,7 @@ struct pending {
 static void closest_in_tree(const struct accel *a, const struct ray *ray,
                             const struct ray_frame *frame, struct hit *hit)
 {
-    struct walk walk = walk_along(a, ray, frame->reach);
+    struct walk walk = walk_along(a, ray);
     struct pending stack[BVH_DEPTH_LIMIT];
     int depth = 0;
     uint32_t at = 0;
@@ -102,7 +102,7 @@ static void closest_in_tree(const struct accel *a, const struct ray *ray,
 static bool any_in_tree(const struct accel *a, const struct ray *ray,
                         const struct ray_frame *frame, struct hit *hit)
 {
-    struct walk walk = walk_along(a, ray, frame->reach);
+    struct walk walk = walk_along(a, ray);
     uint32_t stack[BVH_DEPTH_LIMIT + 1] = { 0 };
     int depth = 1;
     while (depth > 0) {

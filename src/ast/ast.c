@@ -16,6 +16,7 @@ void ast_free(struct ast *a)
 struct ast_node *ast_node(struct ast *a, enum ast_kind kind, struct span span)
 {
     struct ast_node *n = arena_zalloc(&a->arena, 1, sizeof *n);
+    a->nodes++;
     n->kind = (uint8_t)kind;
     n->span = n->name_span = span;
     n->xml = a->xml;
@@ -59,6 +60,14 @@ struct ast_node *ast_holding(struct ast_node *parent, struct ast_list children)
 struct ast_list ast_append(struct ast_list list, struct ast_node *node)
 {
     return ast_concat(list, (struct ast_list){node, node});
+}
+
+struct ast_list ast_append_error(struct ast *a, struct ast_list list, struct span span)
+{
+    if (!list.last || list.last->kind != AST_ERROR)
+        return ast_append(list, ast_node(a, AST_ERROR, span));
+    list.last->span = list.last->name_span = span_join(list.last->span, span);
+    return list;
 }
 
 struct ast_list ast_concat(struct ast_list a, struct ast_list b)

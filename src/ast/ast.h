@@ -52,8 +52,8 @@ struct ast_node {
     struct span span;          /* the whole node */
     struct span name_span;     /* its name, or for a block without one its opening */
     struct str name;           /* borrowed from the source text */
-    struct str label;          /* AST_BLOCK: borrowed; empty without one */
     union {
+        struct str label; /* AST_BLOCK: borrowed; empty without one */
         double number;
         struct str text;
         bool boolean;
@@ -80,7 +80,7 @@ struct ast {
     bool xml;
     struct ast_node *statements; /* XML: the root element */
     VEC(struct trivia) trivia;
-    size_t blocks; /* objects so far */
+    size_t nodes; /* made so far */
 };
 
 /* A list under construction. */
@@ -102,6 +102,8 @@ struct ast_node *ast_with(struct ast_node *parent, struct ast_node *child);
 struct ast_node *ast_holding(struct ast_node *parent, struct ast_list children);
 
 struct ast_list ast_append(struct ast_list list, struct ast_node *node);
+/* Appends an AST_ERROR, or widens the one at the end. */
+struct ast_list ast_append_error(struct ast *a, struct ast_list list, struct span span);
 /* a, then b. */
 struct ast_list ast_concat(struct ast_list a, struct ast_list b);
 

@@ -155,7 +155,10 @@ char *file_resolve(const char *beside, const char *name, size_t name_length)
     memcpy(path, beside, folder);
     memcpy(path + folder, name, name_length);
     path[folder + name_length] = 0;
-    return path;
+    if (strcmp(path, "-") != 0)
+        return path;
+    free(path); /* a file of that name, not standard input */
+    return memcpy(mem_alloc(sizeof "./-", 1), "./-", sizeof "./-");
 }
 
 bool file_identify(const char *path, struct file_id *id)

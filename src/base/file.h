@@ -22,8 +22,8 @@ bool file_readable(const char *path, const char **reason);
  * standard output, is written directly.  Returns NULL or a reason. */
 const char *file_write(const char *path, const void *data, size_t n);
 
-/* The path of `name` as spelt in a file at `beside`: relative names start at its folder; "-" and
- * plain names at the current one.  Caller frees. */
+/* The path of `name` as spelt in a file at `beside`: relative names start at its folder, or at the
+ * current one when that spells none.  A file called "-" is itself.  Caller frees. */
 char *file_resolve(const char *beside, const char *name, size_t name_length);
 
 /* Identity of an existing file, to load each one once; false when it cannot be told. */

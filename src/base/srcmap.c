@@ -78,6 +78,18 @@ static uint32_t count_code_points(const char *p, const char *end)
     return n;
 }
 
+/* The column (from 0) of byte `at` in the line that begins at byte `begin`. */
+static uint32_t column_of(struct source *s, uint32_t begin, uint32_t at)
+{
+    if (s->last.line != begin || s->last.at > at) {
+        s->last.line = s->last.at = begin;
+        s->last.column = 0;
+    }
+    s->last.column += count_code_points(s->text + s->last.at, s->text + at);
+    s->last.at = at;
+    return s->last.column;
+}
+
 struct location srcmap_locate(const struct srcmap *m, uint32_t offset)
 {
     struct source *s = find(m, offset);
@@ -94,7 +106,7 @@ struct location srcmap_locate(const struct srcmap *m, uint32_t offset)
     return (struct location){
         .source = s,
         .line = (uint32_t)line + 1,
-        .column = count_code_points(s->text + begin, s->text + at) + 1,
+        .column = column_of(s, begin, at) + 1,
         .line_text = {s->text + begin, end - begin},
         .line_base = s->base + begin,
     };

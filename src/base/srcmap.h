@@ -32,6 +32,9 @@ struct source {
     uint32_t base; /* offset of text[0] */
     uint32_t n;    /* bytes, without the NULs */
     VEC(uint32_t) lines; /* start of each line within text; made when first asked for */
+    struct {
+        uint32_t line, at, column; /* the last column told, from 0; places mostly come in order */
+    } last;
 };
 
 struct srcmap {

@@ -117,6 +117,14 @@ size_t str_utf8_valid(const char *p, size_t n)
     return n;
 }
 
+size_t str_control_length(const char *p, size_t n)
+{
+    unsigned char c = (unsigned char)p[0];
+    if (c < 32 || c == 127)
+        return 1;
+    return c == 0xC2 && n > 1 && (unsigned char)p[1] < 0xA0 ? 2 : 0;
+}
+
 size_t str_utf8_encode(unsigned long c, char out[4])
 {
     if (c < 0x80) {

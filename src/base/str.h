@@ -54,6 +54,10 @@ struct str str_nearest_found(const struct str_nearest *n);
  * surrogates, or code points above U+10FFFF), or n. */
 size_t str_utf8_valid(const char *p, size_t n);
 
+/* Bytes of the control character at p, which a terminal might obey: 1, or 2 for U+0080 to U+009F;
+ * 0 for any other character.  n > 0 bytes follow p. */
+size_t str_control_length(const char *p, size_t n);
+
 /* Bytes of the sequence that starts with this (valid) lead byte. */
 static inline size_t str_utf8_length(unsigned char lead)
 {

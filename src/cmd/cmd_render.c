@@ -18,7 +18,7 @@ struct run {
     const struct options *options;
     struct frontend frontend;
     struct lowered lowered;
-    char *output; /* path of the picture */
+    const char *output; /* path of the picture */
     enum picture_format format;
     struct render_options render;
     struct picture *picture;
@@ -40,13 +40,10 @@ static char *default_output(const char *scene)
     return path;
 }
 
-/* Where the picture goes; told before any work is done.  0 or an exit status. */
-static int choose_output(struct run *r)
+/* The picture's format; told before any work is done.  0 or an exit status. */
+static int choose_format(struct run *r)
 {
     const struct options *o = r->options;
-    r->output = o->output ? strdup(o->output) : default_output(o->scenes.at[0]);
-    if (!r->output)
-        mem_exhausted(strlen(o->output));
     if (!picture_format_of(r->output, &r->format))
         return usage_error("'%s' names no picture format; .png, .ppm and .pfm are written",
                            r->output);
@@ -68,6 +65,9 @@ static int report_output(struct run *r, const char *reason)
 /* A long render should not end with "no such directory". */
 static const char *output_obstacle(const char *path)
 {
+    struct stat st;
+    if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
+        return strerror(EISDIR);
     const char *slash = strrchr(path, '/');
     size_t n = slash ? (size_t)(slash - path) : 0;
     if (!slash || n == 0)
@@ -75,12 +75,21 @@ static const char *output_obstacle(const char *path)
     char *folder = mem_alloc(n + 1, 1);
     memcpy(folder, path, n);
     folder[n] = 0;
-    struct stat st;
     const char *reason = stat(folder, &st) != 0  ? strerror(errno)
                          : S_ISDIR(st.st_mode) ? NULL
                                                : strerror(ENOTDIR);
     free(folder);
     return reason;
+}
+
+/* What validation asks of the scene's own resolution; 0 or an exit status. */
+static int check_field_of_view(const struct camera *c, uint32_t width, uint32_t height)
+{
+    bool same = (uint64_t)width * c->height == (uint64_t)height * c->width;
+    if (same || c->yfov * width / height < 90)
+        return 0;
+    return usage_error("--res: %u x %u is too wide for the scene's field of view: %.6g degrees times "
+                       "width over height must be below 90", width, height, c->yfov);
 }
 
 /* Size and crop of the picture; 0 or an exit status. */
@@ -93,8 +102,9 @@ static int choose_size(struct run *r)
     to->height = o->height ? o->height : c->height;
     to->crop.x1 = to->width;
     to->crop.y1 = to->height;
-    if (!o->cropped)
-        return 0;
+    int status = check_field_of_view(c, to->width, to->height);
+    if (!o->cropped || status != 0)
+        return status;
     if (o->crop[2] > to->width || o->crop[3] > to->height)
         return usage_error("--crop reaches beyond the picture of %u x %u", to->width, to->height);
     to->crop.x0 = o->crop[0];
@@ -185,7 +195,7 @@ static int write_picture(struct run *r)
 static int run_steps(struct run *r)
 {
     double start = thread_seconds();
-    int status = choose_output(r);
+    int status = choose_format(r);
     if (status == 0)
         status = load(r);
     if (status == 0)
@@ -208,12 +218,13 @@ static int render_with(const struct options *o)
     if (o->scenes.n != 1)
         return o->scenes.n ? usage_error("render takes one scene, but %zu are given", o->scenes.n)
                            : usage_error("render: no scene given");
-    struct run r = {.options = o};
+    char *by_default = o->output ? NULL : default_output(o->scenes.at[0]);
+    struct run r = {.options = o, .output = o->output ? o->output : by_default};
     int status = run_steps(&r);
     picture_free(r.picture);
     lower_free(&r.lowered);
     frontend_free(&r.frontend);
-    free(r.output);
+    free(by_default);
     return status;
 }
 

@@ -75,7 +75,7 @@ static bool may_evaluate(const struct frontend *f, bool parsed)
 static void evaluate(struct frontend *f, const struct options *o, bool parsed)
 {
     struct eval_define *defines = parse_defines(f, o);
-    struct eval_options options = {defines, o->defines.n};
+    struct eval_options options = {defines, o->defines.n, o->max_objects};
     eval_scene(&f->ast, &options, &f->desc, &f->diag);
     if (parsed || f->desc.camera)
         validate_scene(&f->desc, &f->diag);
@@ -89,7 +89,7 @@ bool frontend_load(struct frontend *f, const char *path, const struct options *o
     diag_init(&f->diag, &f->sources);
     const struct source *s = read_scene(f, path);
     if (s) {
-        bool parsed = syntax_parse(s, o->max_objects, &f->ast, &f->diag);
+        bool parsed = syntax_parse(s, &f->ast, &f->diag);
         if (may_evaluate(f, parsed))
             evaluate(f, o, parsed);
     }

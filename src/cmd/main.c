@@ -14,8 +14,10 @@
 
 #include "base/str.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const struct command {
     const char *name;
@@ -60,18 +62,50 @@ static const struct command *find_command(const char *name)
     return NULL;
 }
 
+/* A word before other operands that is no file was meant as a command. */
+static bool looks_like_command(const char *word, size_t operands)
+{
+    return operands > 1 && !strpbrk(word, "./") && access(word, F_OK) != 0;
+}
+
+static int unknown_command(const char *word)
+{
+    struct str_nearest nearest = str_nearest_to(str_of(word));
+    for (int i = 0; i < COMMANDS; i++)
+        str_nearest_try(&nearest, str_of(commands[i].name));
+    struct str meant = str_nearest_found(&nearest);
+    if (meant.n)
+        return usage_error("unknown command '%s'; did you mean '%.*s'?", word, STR_ARG(meant));
+    return usage_error("unknown command '%s'; 'wrt --help' lists them", word);
+}
+
 /* Without a command: rendering, or the help that was asked for. */
 static int run_without_command(int argc, char **argv)
 {
     struct options o;
     enum options_result result = options_read(argc, argv, FOR_RENDER, &o);
-    bool operands = o.scenes.n > 0;
+    size_t operands = o.scenes.n;
+    const char *first = operands ? o.scenes.at[0] : NULL;
     options_free(&o);
     if (result == OPTIONS_HELP)
         return command_help(FOR_RENDER | FOR_CHECK);
-    if (result == OPTIONS_RUN && !operands)
-        return usage_error("no scene given; 'wrt --help' says more");
-    return result == OPTIONS_WRONG ? EXIT_USAGE : command_render(argc, argv);
+    if (result == OPTIONS_VERSION)
+        return command_version();
+    if (first && looks_like_command(first, operands))
+        return unknown_command(first);
+    if (result == OPTIONS_WRONG)
+        return EXIT_USAGE;
+    return operands ? command_render(argc, argv)
+                    : usage_error("no scene given; 'wrt --help' says more");
+}
+
+/* What was printed must have arrived; returns the exit status. */
+static int close_output(int status)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return status;
+    fprintf(stderr, "wrt: error: could not write to standard output: %s\n", strerror(errno));
+    return status ? status : DIAG_EXIT_RESOURCE;
 }
 
 int main(int argc, char **argv)
@@ -79,8 +113,8 @@ int main(int argc, char **argv)
     int first = options_first_operand(argc, argv);
     const struct command *c = first < argc ? find_command(argv[first]) : NULL;
     if (!c)
-        return run_without_command(argc, argv);
+        return close_output(run_without_command(argc, argv));
     for (int i = first; i + 1 < argc; i++) /* the command's name is no operand */
         argv[i] = argv[i + 1];
-    return c->run(argc - 1, argv);
+    return close_output(c->run(argc - 1, argv));
 }

@@ -2,8 +2,12 @@
 
 #include "diag/diag.h"
 
+#include "base/str.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
+
+enum { FIX_LIMIT = 1000 }; /* bytes: longer replacements help nobody */
 
 const struct diag_rule diag_rules[DIAG_CODES] = {
 #define DIAG(id, code, slug, level, exit, summary) [DIAG_##id] = {code, slug, summary, level, exit},
@@ -32,19 +36,42 @@ void diag_free(struct diag *d)
     arena_free(&d->arena);
 }
 
-static const char *format_text(struct diag *d, const char *format, va_list args)
+/* As printf into memory of its own, which the caller frees; *n is its length. */
+static char *print_text(const char *format, va_list args, size_t *n)
 {
     va_list again;
     va_copy(again, args);
-    int n = vsnprintf(NULL, 0, format, again);
+    int length = vsnprintf(NULL, 0, format, again);
     va_end(again);
-    char *text = arena_alloc(&d->arena, (size_t)(n < 0 ? 0 : n) + 1);
-    text[0] = 0;
-    vsnprintf(text, (size_t)(n < 0 ? 0 : n) + 1, format, args);
-    for (char *c = text; *c; c++) /* quoted input must not steer a terminal */
-        if ((unsigned char)*c < 32 || *c == 127)
-            *c = '?';
+    *n = length < 0 ? 0 : (size_t)length;
+    char *text = mem_zalloc(*n + 1, 1);
+    vsnprintf(text, *n + 1, format, args);
     return text;
+}
+
+static size_t character_start(const char *text, size_t at)
+{
+    while (at && (text[at] & 0xC0) == 0x80)
+        at--;
+    return at;
+}
+
+/* A text that quotes input: kept short, whatever it quotes, and unable to steer a terminal. */
+static const char *format_text(struct diag *d, const char *format, va_list args)
+{
+    enum { MOST = 600, HEAD = 300, TAIL = 200 };
+    size_t n;
+    char *text = print_text(format, args, &n);
+    for (size_t i = 0; i < n; i++)
+        memset(text + i, '?', str_control_length(text + i, n - i));
+    const char *kept;
+    if (n <= MOST)
+        kept = arena_copy(&d->arena, text, n);
+    else
+        kept = arena_printf(&d->arena, "%.*s...%s", (int)character_start(text, HEAD), text,
+                            text + character_start(text, n - TAIL));
+    free(text);
+    return kept;
 }
 
 /* An entry beyond the limit is counted, not kept: its details go where nobody reads them. */
@@ -113,8 +140,13 @@ void diag_fix(struct diag_entry *e, struct span span, enum diag_fix_kind kind, c
         return;
     va_list args;
     va_start(args, format);
-    vec_push(&e->fixits, (struct diag_fixit){span, format_text(e->owner, format, args), kind});
+    size_t n;
+    char *text = print_text(format, args, &n);
     va_end(args);
+    if (n <= FIX_LIMIT)
+        vec_push(&e->fixits,
+                 (struct diag_fixit){span, arena_copy(&e->owner->arena, text, n), kind});
+    free(text);
 }
 
 void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant)

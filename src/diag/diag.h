@@ -87,6 +87,12 @@ void diag_note(struct diag_entry *e, const char *format, ...) __attribute__((for
 void diag_fix(struct diag_entry *e, struct span span, enum diag_fix_kind kind, const char *format,
               ...) __attribute__((format(printf, 4, 5)));
 
+/* True when further entries would only be counted: looking for more is of no use. */
+static inline bool diag_full(const struct diag *d)
+{
+    return d->dropped > 0;
+}
+
 /* Adds the note "did you mean 'x'?" and a fix-it when `meant` is not empty. */
 void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant);
 

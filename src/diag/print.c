@@ -22,5 +22,5 @@ void diag_print(struct diag *d, const struct diag_print_options *o, FILE *out)
             diag_print_text(d, e, o->colour, out);
     }
     if (d->dropped && o->format == DIAG_FORMAT_TEXT)
-        fprintf(out, "wrt: note: %zu more findings are not shown\n", d->dropped);
+        fprintf(out, "wrt: note: there are more findings than the %d shown\n", DIAG_LIMIT);
 }

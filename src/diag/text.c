@@ -10,6 +10,8 @@
 
 #include "diag/print.h"
 
+#include <string.h>
+
 enum { TAB = 8, WINDOW = 100, LEAD = 60 }; /* columns */
 
 struct style {
@@ -35,15 +37,40 @@ static bool continues(char c)
     return (c & 0xC0) == 0x80;
 }
 
+/* Bytes of the character at `at`: 1 for a byte that is no UTF-8, which files that are not scenes
+ * may hold. */
+static size_t character_length(struct str line, size_t at)
+{
+    size_t n = str_utf8_length((unsigned char)line.at[at]);
+    return at + n <= line.n && str_utf8_valid(line.at + at, n) == n ? n : 1;
+}
+
+/* Moves an offset back to the start of its character. */
+static size_t character_start(struct str line, size_t at)
+{
+    enum { LONGEST = 4 };
+    for (size_t i = 1; i < LONGEST && i <= at && at < line.n && continues(line.at[at]); i++)
+        if (!continues(line.at[at - i]))
+            return character_length(line, at - i) > i ? at - i : at;
+    return at;
+}
+
 static struct window window_around(struct str line, size_t caret)
 {
     size_t begin = caret > LEAD && line.n > WINDOW ? caret - LEAD : 0;
-    while (begin && continues(line.at[begin]))
-        begin--;
+    begin = character_start(line, begin);
     size_t end = begin + WINDOW < line.n ? begin + WINDOW : line.n;
-    while (end < line.n && continues(line.at[end]))
-        end++;
-    return (struct window){begin, end};
+    return (struct window){begin, character_start(line, end)};
+}
+
+/* A control character, or a byte that is no UTF-8, is shown as a question mark. */
+static void put_character(FILE *out, const char *at, size_t n)
+{
+    bool byte = n == 1 && (unsigned char)*at >= 0x80;
+    if (byte || str_control_length(at, n))
+        putc('?', out);
+    else
+        fprintf(out, "%.*s", (int)n, at);
 }
 
 /* Prints bytes [begin, end) of the line with tabs widened, or, when as_blank, as many blanks (or
@@ -51,21 +78,19 @@ static struct window window_around(struct str line, size_t caret)
 static size_t put_columns(FILE *out, struct str line, size_t begin, size_t end, size_t column,
                           char mark)
 {
-    for (size_t i = begin; i < end; i++) {
-        unsigned char c = (unsigned char)line.at[i];
-        if (c == '\t') {
+    for (size_t i = begin, n; i < end; i += n) {
+        n = character_length(line, i);
+        if (line.at[i] == '\t') {
             do
                 putc(mark ? mark : ' ', out);
             while (++column % TAB);
-        } else if (mark) {
-            if (!continues((char)c)) {
-                putc(mark, out);
-                column++;
-            }
-        } else {
-            putc(c < 32 || c == 127 ? '?' : c, out);
-            column += !continues((char)c);
+            continue;
         }
+        if (mark)
+            putc(mark, out);
+        else
+            put_character(out, line.at + i, n);
+        column++;
     }
     return column;
 }
@@ -83,7 +108,7 @@ static void put_caret_line(FILE *out, const struct location *at, struct window w
     fprintf(out, "      | %s", w.begin ? "   " : "");
     size_t column = put_columns(out, at->line_text, w.begin, begin, 0, ' ');
     fprintf(out, "%s^", s->caret);
-    size_t first = begin < at->line_text.n ? str_utf8_length((unsigned char)at->line_text.at[begin]) : 1;
+    size_t first = begin < at->line_text.n ? character_length(at->line_text, begin) : 1;
     if (end > begin + first)
         put_columns(out, at->line_text, begin + first, end < w.end ? end : w.end, column + 1, '~');
     fprintf(out, "%s\n", s->plain);
@@ -99,7 +124,7 @@ static void put_fixits(FILE *out, const struct diag_entry *e, const struct locat
             continue;
         fprintf(out, "      | %s", w.begin ? "   " : "");
         put_columns(out, at->line_text, w.begin, f->span.begin - at->line_base, 0, ' ');
-        fprintf(out, "%s%s%s\n", s->fix, f->text, s->plain);
+        fprintf(out, "%s%.*s%s\n", s->fix, (int)strcspn(f->text, "\n"), f->text, s->plain);
     }
 }
 

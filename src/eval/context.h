@@ -46,6 +46,7 @@ struct eval {
     struct desc *out;
     struct diag *diag;
     struct map names; /* to struct binding */
+    size_t names_tried; /* for "did you mean" so far */
 };
 
 /* ---- object.c ---- */
@@ -61,8 +62,14 @@ struct desc_prop *object_prop(struct eval *e, struct desc_object *o, enum schema
 enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o, struct str name,
                                      struct span name_span, unsigned *leaf);
 
+/* Adds a light or surface to the description; NULL is passed over. */
+void object_place(struct eval *e, struct desc_object *o);
+
 /* Adds a finished texture or material to the description and numbers it. */
 void object_register(struct eval *e, struct desc_object *o);
+
+/* Offers all defined names for "did you mean", unless that was asked too often among too many. */
+void try_defined_names(struct eval *e, struct str_nearest *nearest);
 
 /* Reports a name of no kind of this group. */
 void report_unknown_kind(struct eval *e, enum schema_group group, struct str name,

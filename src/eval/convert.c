@@ -92,8 +92,11 @@ static bool as_points(const struct target *t, const struct value *v)
     t->out->n = want;
     for (unsigned i = 0; i < want; i++) {
         const struct value *item = &v->items[i];
-        if (item->type != VALUE_VECTOR)
+        if (item->type != VALUE_VECTOR) {
+            diag_report(t->e->diag, DIAG_WRONG_TYPE, item->span,
+                        "a point is two or three numbers, but this is %s", value_type_name(item));
             return false;
+        }
         t->out->points[i] =
             vec3(item->number[0], item->number[1], item->n == 3 ? item->number[2] : 0);
     }
@@ -115,8 +118,8 @@ static bool as_file(const struct target *t, const struct value *v)
 
 static bool as_member(const struct target *t, const struct value *v, enum schema_group group)
 {
-    t->out->object = v->object;
-    return v->type == VALUE_OBJECT && schema_kinds[v->object->kind].group == group;
+    t->out->object = v->type == VALUE_OBJECT ? v->object : NULL;
+    return t->out->object && schema_kinds[v->object->kind].group == group;
 }
 
 static bool as_material(const struct target *t, const struct value *v)

@@ -16,6 +16,7 @@ struct eval_define {
 struct eval_options {
     const struct eval_define *defines;
     size_t define_count;
+    size_t max_objects; /* surfaces and lights */
 };
 
 /* Evaluates into *out (initialised here; free with desc_free even after errors).  True when there

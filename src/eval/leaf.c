@@ -185,13 +185,25 @@ static bool read_value(struct eval *e, enum schema_prop_id id, unsigned part,
     return false;
 }
 
+/* An empty leaf has no text whose place could be shown. */
+static bool report_empty(struct eval *e, enum schema_prop_id id, const struct ast_node *leaf)
+{
+    if (leaf->children->text.n)
+        return false;
+    diag_report(e->diag, DIAG_WRONG_COUNT, leaf->span, "'%.*s' is empty, but takes %s",
+                STR_ARG(leaf->name),
+                schema_props[id].type == TYPE_POINTS ? "three numbers"
+                                                     : schema_type_name(schema_props[id].type));
+    return true;
+}
+
 void eval_leaf(struct eval *e, struct desc_object *o, const struct ast_node *leaf)
 {
     unsigned part;
     enum schema_prop_id id = object_find_prop(e, o, leaf->name, leaf->name_span, &part);
     struct desc_prop *p =
         id != SCHEMA_PROPS ? object_prop(e, o, id, part, leaf->name_span) : NULL;
-    if (!p || !read_value(e, id, part, leaf, &p->value))
+    if (!p || report_empty(e, id, leaf) || !read_value(e, id, part, leaf, &p->value))
         o->broken = true;
     else
         p->value.span = leaf->children->span;

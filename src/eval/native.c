@@ -162,7 +162,7 @@ static void add_light(struct eval *e, const struct ast_node *node)
     }
     struct desc_object *o = eval_block(e, kind, node, NULL);
     o->name = (struct str){0};
-    vec_push(&e->out->lights, o);
+    object_place(e, o);
 }
 
 static void report_unknown_statement(struct eval *e, const struct ast_node *node)
@@ -189,7 +189,7 @@ static void eval_object(struct eval *e, const struct ast_node *node)
     else if (kind == SCHEMA_KINDS)
         report_unknown_statement(e, node);
     else
-        vec_push(&e->out->surfaces, eval_block(e, kind, node, NULL));
+        object_place(e, eval_block(e, kind, node, NULL));
 }
 
 static void eval_statement(struct eval *e, const struct ast_node *node)
@@ -232,8 +232,10 @@ static void require_classic(struct eval *e, const struct ast_node *model)
 void eval_native(struct eval *e, const struct ast_node *statements)
 {
     const struct ast_node *model = NULL;
+    bool damaged = false;
     e->out->model = MODEL_MODERN;
-    for (const struct ast_node *s = statements; s; s = s->next) {
+    for (const struct ast_node *s = statements; s && !diag_full(e->diag); s = s->next) {
+        damaged |= s->kind == AST_ERROR;
         if (s->kind == AST_MODEL && model) {
             struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_OBJECT, s->name_span,
                                                    "the model is given twice");
@@ -244,5 +246,6 @@ void eval_native(struct eval *e, const struct ast_node *statements)
             model = s;
         eval_statement(e, s);
     }
-    require_classic(e, model);
+    if (model || !damaged) /* else the model may stand in what did not parse */
+        require_classic(e, model);
 }

@@ -82,6 +82,21 @@ enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o
     return SCHEMA_PROPS;
 }
 
+void object_place(struct eval *e, struct desc_object *o)
+{
+    struct desc *d = e->out;
+    if (!o)
+        return;
+    size_t have = d->lights.n + d->surfaces.n;
+    if (have == e->options->max_objects)
+        diag_report(e->diag, DIAG_TOO_MANY_OBJECTS, o->span,
+                    "more than the %zu objects that --max-objects allows", have);
+    if (schema_kinds[o->kind].group == SCHEMA_LIGHT)
+        vec_push(&d->lights, o);
+    else
+        vec_push(&d->surfaces, o);
+}
+
 void object_register(struct eval *e, struct desc_object *o)
 {
     if (schema_kinds[o->kind].group == SCHEMA_TEXTURE) {
@@ -91,6 +106,15 @@ void object_register(struct eval *e, struct desc_object *o)
         o->number = (uint32_t)e->out->materials.n;
         vec_push(&e->out->materials, o);
     }
+}
+
+void try_defined_names(struct eval *e, struct str_nearest *nearest)
+{
+    enum { MOST = 1000 * 1000 }; /* keeps thousands of unknown names among as many from taking minutes */
+    e->names_tried += e->names.capacity;
+    for (size_t i = 0; i < e->names.capacity && e->names_tried <= MOST; i++)
+        if (e->names.slots[i].value)
+            str_nearest_try(nearest, e->names.slots[i].key);
 }
 
 void report_unknown_kind(struct eval *e, enum schema_group group, struct str name,

@@ -85,9 +85,7 @@ static struct value eval_name(struct eval *e, const struct ast_node *node)
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, node->span,
                                            "'%.*s' is not defined", STR_ARG(node->name));
     struct str_nearest nearest = str_nearest_to(node->name);
-    for (size_t i = 0; i < e->names.capacity; i++)
-        if (e->names.slots[i].value)
-            str_nearest_try(&nearest, e->names.slots[i].key);
+    try_defined_names(e, &nearest);
     diag_did_you_mean(entry, node->span, str_nearest_found(&nearest));
     return error_at(node);
 }
@@ -113,9 +111,7 @@ static void report_not_constructible(struct eval *e, const struct ast_node *node
     for (int k = 0; k < SCHEMA_KINDS; k++)
         if (constructible_kind(str_of(schema_kinds[k].native)) != SCHEMA_KINDS)
             str_nearest_try(&nearest, str_of(schema_kinds[k].native));
-    for (size_t i = 0; i < e->names.capacity; i++)
-        if (e->names.slots[i].value)
-            str_nearest_try(&nearest, e->names.slots[i].key);
+    try_defined_names(e, &nearest);
     diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
 }
 

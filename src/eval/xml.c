@@ -123,14 +123,15 @@ static void eval_inner_element(struct eval *e, struct desc_object *o, const stru
         diag_report(e->diag, DIAG_WRONG_TYPE, node->name_span,
                     "'%.*s' takes %s, without attributes or elements inside", STR_ARG(node->name),
                     schema_type_name(schema_props[id].type));
-        p->value.object = NULL;
+        o->broken = true;
+        return;
     }
     o->broken |= !p->value.object;
 }
 
 static void eval_members(struct eval *e, struct desc_object *o, const struct ast_node *node)
 {
-    for (const struct ast_node *m = node->children; m; m = m->next) {
+    for (const struct ast_node *m = node->children; m && !diag_full(e->diag); m = m->next) {
         if (m->kind == AST_PROPERTY)
             eval_leaf(e, o, m);
         else if (m->kind == AST_BLOCK)
@@ -172,9 +173,7 @@ static void report_unknown_id(struct eval *e, struct str name, struct span span)
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, span,
                                            "no material has the id '%.*s'", STR_ARG(name));
     struct str_nearest nearest = str_nearest_to(name);
-    for (size_t i = 0; i < e->names.capacity; i++)
-        if (e->names.slots[i].value)
-            str_nearest_try(&nearest, e->names.slots[i].key);
+    try_defined_names(e, &nearest);
     diag_did_you_mean(entry, span, str_nearest_found(&nearest));
 }
 
@@ -257,9 +256,7 @@ static void add_camera(struct eval *e, const struct ast_node *node)
 
 static void add_light(struct eval *e, const struct ast_node *node)
 {
-    struct desc_object *o = eval_item(e, node, SCHEMA_LIGHT, ATTRIBUTE_CLASS | ATTRIBUTE_ID);
-    if (o)
-        vec_push(&e->out->lights, o);
+    object_place(e, eval_item(e, node, SCHEMA_LIGHT, ATTRIBUTE_CLASS | ATTRIBUTE_ID));
 }
 
 /* A texture that is broken keeps its number, so that indexes still mean what they say. */
@@ -270,9 +267,7 @@ static void add_texture(struct eval *e, const struct ast_node *node)
 
 static void add_surface(struct eval *e, const struct ast_node *node)
 {
-    struct desc_object *o = eval_surface(e, node, true);
-    if (o)
-        vec_push(&e->out->surfaces, o);
+    object_place(e, eval_surface(e, node, true));
 }
 
 /* The children of the root, in the order they are evaluated: surfaces and lights use textures. */
@@ -299,7 +294,8 @@ static void eval_section(struct eval *e, const struct section *s, const struct a
         return;
     }
     take_attributes(e, node, s->name, 0);
-    for (const struct ast_node *item = node->children; item; item = item->next) {
+    for (const struct ast_node *item = node->children; item && !diag_full(e->diag);
+         item = item->next) {
         if (item->kind == AST_BLOCK || item->kind == AST_PROPERTY)
             s->add(e, item);
         else if (item->kind == AST_TEXT)
@@ -339,7 +335,7 @@ void eval_xml(struct eval *e, const struct ast_node *root)
         return;
     e->out->start = root->name_span;
     eval_root_attributes(e, root);
-    for (const struct ast_node *c = root->children; c; c = c->next) {
+    for (const struct ast_node *c = root->children; c && !diag_full(e->diag); c = c->next) {
         if (c->kind == AST_TEXT && c->text.n)
             diag_report(e->diag, DIAG_MISPLACED, c->span, "text cannot stand between elements");
         if (c->kind != AST_BLOCK && c->kind != AST_PROPERTY)

@@ -61,19 +61,27 @@ static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
 /* What the tests of one ray against many primitives share. */
 struct ray_frame {
     double square, inverse_square; /* of the direction's length */
-    double tolerance, reach;       /* SPAWN_TOLERANCE or 0; the origin's largest coordinate */
-    double shear_x, shear_y;       /* the direction's other two components over the largest */
-    int axis;                      /* of the direction's largest component */
+    double tolerance, reach;       /* SPAWN_TOLERANCE and the origin's largest coordinate, or 0 */
+    /* For triangles: */
+    double shear_x, shear_y; /* the direction's other two components over the largest */
+    int axis;                /* of the direction's largest component */
 };
+
+/* Without the part for triangles. */
+static inline struct ray_frame ray_frame_for_round(const struct ray *ray)
+{
+    double square = vec3_dot(ray->direction, ray->direction);
+    return (struct ray_frame){ .square = square,
+                               .inverse_square = 1 / square,
+                               .tolerance = ray->spawned ? SPAWN_TOLERANCE : 0,
+                               .reach = ray->spawned ? vec3_largest(ray->origin) : 0 };
+}
 
 static inline struct ray_frame ray_frame_of(const struct ray *ray)
 {
+    struct ray_frame f = ray_frame_for_round(ray);
     struct vec3 d = ray->direction;
     double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
-    struct ray_frame f = { .square = vec3_dot(d, d),
-                           .tolerance = ray->spawned ? SPAWN_TOLERANCE : 0,
-                           .reach = vec3_largest(ray->origin) };
-    f.inverse_square = 1 / f.square;
     if (x > y && x > z) {
         double inverse = 1 / d.x;
         f.axis = 0, f.shear_x = d.y * inverse, f.shear_y = d.z * inverse;
@@ -95,8 +103,8 @@ static inline double ray_inverse(double d, double largest)
     return 1 / (fabs(d) < least ? copysign(least, d) : d);
 }
 
-/* False for a direction of length zero or with a part that is no finite number: such a ray hits
- * nothing. */
+/* False for a direction of length zero or with a part that is no finite number.  Such a ray hits
+ * nothing, but would walk a whole tree to find out. */
 static inline bool ray_has_direction(const struct ray *r)
 {
     struct vec3 d = r->direction;

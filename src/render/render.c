@@ -84,19 +84,17 @@ static void add_samples(struct worker *w, const struct tile *tile, uint32_t k, u
                         struct vec3 *sums)
 {
     struct ray rays[BATCH];
-    struct path paths[BATCH];
     struct vec3 colours[BATCH];
     const struct tracer *t = w->tracer;
     uint32_t n = 0;
     for (uint32_t y = tile->y0; y < tile->y1; y++) {
         for (uint32_t x = tile->x0; x < tile->x1; x++) {
             uint32_t j = t->options->height - 1 - y;
-            rays[n] = camera_ray(t, sample_direction(t, x, j, k, l));
-            paths[n++] = (struct path){ .index = 1, .crossed = SURFACE_NONE };
+            rays[n++] = camera_ray(t, sample_direction(t, x, j, k, l));
         }
     }
     w->stats.primary += n;
-    trace_batch(w, 0, rays, paths, n, colours);
+    trace_batch(w, 0, rays, NULL, n, colours);
     for (uint32_t i = 0; i < n; i++)
         sums[i] = vec3_add(sums[i], colours[i]);
 }

@@ -59,14 +59,24 @@ static struct vec3 diffuse_term(const struct shade_point *s, double cosine)
     return vec3_scale(m->diffuse, (lit.x + lit.y + lit.z) / 3);
 }
 
-/* The highlight, unless it is nothing for certain: specular 0 times a power that is a number. */
+/* Whether adding k cosine^exponent cannot change the light, not even its last bit: the power is
+ * below 2^-60, for x^n <= exp(-n (1 - x)), and k not that much larger than the light.  A specular
+ * of 0 adds nothing to begin with.  The power of a negative cosine must be a number. */
+static bool is_invisible(struct vec3 light, struct vec3 k, double cosine, double exponent)
+{
+    bool is_number = exponent == floor(exponent) && exponent <= 1e6 && fabs(cosine) < 2;
+    if (k.x == 0 && k.y == 0 && k.z == 0)
+        return is_number;
+    return exponent * (1 - fabs(cosine)) > 42 && is_number && k.x < 32 * fabs(light.x) &&
+           k.y < 32 * fabs(light.y) && k.z < 32 * fabs(light.z);
+}
+
 static struct vec3 add_highlight(struct vec3 light, const struct material *m, double cosine)
 {
-    struct vec3 k = m->specular;
-    bool black = k.x == 0 && k.y == 0 && k.z == 0;
-    if (black && m->exponent >= 0 && m->exponent <= 1e6 && m->exponent == floor(m->exponent))
+    if (is_invisible(light, m->specular, cosine, m->exponent))
         return light;
-    return vec3_mad(light, m->exponent == 1 ? cosine : pow(cosine, m->exponent), k);
+    double shine = m->exponent == 1 ? cosine : pow(cosine, m->exponent);
+    return vec3_mad(light, shine, m->specular);
 }
 
 /* original.md, section 4: neither cosine is clamped. */
@@ -109,10 +119,13 @@ void shade_points(struct worker *w, uint32_t n)
 {
     const struct scene *scene = w->tracer->scene;
     double shares[BATCH];
-    for (uint32_t i = 0; i < n; i++)
+    struct box box = box_empty();
+    for (uint32_t i = 0; i < n; i++) {
         w->light[i] = (struct shade_light){ { 0, 0, 0 }, { 0, 0, 0 } };
+        box = box_add(box, w->points[i].p);
+    }
     for (size_t k = 0; k < scene->lights.n; k++) {
-        lamp_shares(w, &w->tracer->lamps[k], n, shares);
+        lamp_shares(w, &w->tracer->lamps[k], box, n, shares);
         for (uint32_t i = 0; i < n; i++)
             add_light(&w->light[i], &w->points[i], &scene->lights.at[k], shares[i]);
     }

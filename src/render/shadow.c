@@ -289,15 +289,12 @@ static void point_shares(struct worker *w, const struct lamp *lamp,
         shares[which[i]] = blocked[i] ? 0 : 1;
 }
 
-void lamp_shares(struct worker *w, const struct lamp *lamp, uint32_t n, double *shares)
+void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint32_t n,
+                 double *shares)
 {
     struct target_list list = { .usable = false };
-    if (w->tracer->skips && n > 1) {
-        struct box box = box_empty();
-        for (uint32_t i = 0; i < n; i++)
-            box = box_add(box, w->points[i].p);
+    if (w->tracer->skips && n > 1)
         list_shadowers(w->tracer, lamp, box, &list);
-    }
     if (lamp->light->kind == LIGHT_POINT) {
         point_shares(w, lamp, &list, n, shares);
         return;

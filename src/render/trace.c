@@ -128,7 +128,7 @@ static uint32_t find_points(struct worker *w, const struct ray *rays, const stru
     bundle_closest(&t->accel, &list, rays, n, hits);
     for (uint32_t i = 0; i < n; i++) {
         struct hit first;
-        bool inside = paths[i].crossed != SURFACE_NONE &&
+        bool inside = paths && paths[i].crossed != SURFACE_NONE &&
                       hits_crossed_surface(t, rays[i], paths[i].crossed, &first);
         if (!inside && hits[i].prim == PRIM_NONE)
             continue;
@@ -145,8 +145,9 @@ static uint32_t find_points(struct worker *w, const struct ray *rays, const stru
 static void add_offspring(struct level *level, const struct scene *scene,
                           const struct shade_point *s, struct vec3 intensity, double index)
 {
-    struct vec3 reflected = vec3_mul(intensity, s->material->reflection);
-    struct vec3 refracted = vec3_mul(intensity, s->material->refraction);
+    const struct material *m = s->material;
+    struct vec3 reflected = vec3_mul(intensity, m->reflection);
+    struct vec3 refracted = vec3_mul(intensity, m->refraction);
     if (!is_zero(reflected))
         add_reflection(level, s, reflected);
     if (!is_zero(refracted))
@@ -182,8 +183,9 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const
     for (uint32_t i = 0; i < found; i++) {
         const struct shade_point *s = &w->points[i];
         colours[s->ray] = w->light[i].direct;
-        if (depth < t->options->depth)
-            add_offspring(level, t->scene, s, w->light[i].intensity, paths[s->ray].index);
+        if (depth < t->options->depth && s->material->kind >= MATERIAL_SHINY)
+            add_offspring(level, t->scene, s, w->light[i].intensity,
+                          paths ? paths[s->ray].index : 1);
     }
     w->stats.reflection += level->reflected.rays.n;
     w->stats.refraction += level->refracted.rays.n;

@@ -81,8 +81,10 @@ struct worker {
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force);
 void lamp_free(struct lamp *lamp);
 
-/* shadow.c: the share of the lamp's light that reaches each of the first n of w->points. */
-void lamp_shares(struct worker *w, const struct lamp *lamp, uint32_t n, double *shares);
+/* shadow.c: the share of the lamp's light that reaches each of the first n of w->points, which lie
+ * in the box. */
+void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint32_t n,
+                 double *shares);
 
 /* shade.c */
 void shade_point_init(struct shade_point *s, const struct scene *scene, const struct ray *ray,
@@ -90,7 +92,7 @@ void shade_point_init(struct shade_point *s, const struct scene *scene, const st
 /* Fills in w->light for the first n of w->points. */
 void shade_points(struct worker *w, uint32_t n);
 
-/* trace.c: the colours seen along n <= BATCH rays. */
+/* trace.c: the colours seen along n <= BATCH rays; paths is NULL for camera rays. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const struct path *paths,
                  uint32_t n, struct vec3 *colours);
 void worker_init(struct worker *w, const struct tracer *tracer);

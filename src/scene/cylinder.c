@@ -45,9 +45,12 @@ static double reach_of(const struct cylinder *c)
 static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 direction,
                          double rounding, struct stretch *s)
 {
-    struct vec3 n = cross(direction, c->axis), w = cross(m, c->axis);
-    double a = vec3_dot(n, n), b = vec3_dot(n, w), r2 = c->radius * c->radius;
-    double power = vec3_dot(w, w) - r2; /* of the origin: 0 on the side */
+    struct vec3 n = cross(direction, c->axis);
+    double a = vec3_dot(n, n), mn = vec3_dot(m, n), r2 = c->radius * c->radius;
+    if (mn * mn > r2 * a)
+        return false; /* the line passes the axis too far off; most rays end here */
+    struct vec3 w = cross(m, c->axis);
+    double b = vec3_dot(n, w), power = vec3_dot(w, w) - r2; /* of the origin: 0 on the side */
     if (fabs(power) <= 2 * c->radius * rounding)
         power = 0;
     if (a == 0) {
@@ -61,10 +64,8 @@ static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 di
         t0 = 0;
         t1 = -2 * b / a;
     } else {
-        double mn = vec3_dot(m, n), discriminant = r2 - mn * mn / a;
-        if (!(discriminant >= 0))
-            return false;
-        double q = -(b + copysign(sqrt(a * discriminant), b));
+        double discriminant = r2 - mn * mn / a;
+        double q = -(b + copysign(sqrt(a * fmax(discriminant, 0)), b));
         t0 = power / q;
         t1 = q / a;
     }

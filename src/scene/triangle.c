@@ -90,7 +90,8 @@ double triangle_distance(const struct geometry *g, const struct triangle *tri,
     struct vec3 n = tri->normal;
     double distance = vec3_dot(n, vec3_sub(corner_at(g, tri, 0), ray->origin));
     double speed = vec3_dot(n, ray->direction);
-    if (fabs(distance) <= frame->tolerance * (frame->reach + tri->reach))
+    double rounding = frame->tolerance * (frame->reach + tri->reach);
+    if (fabs(distance) <= rounding)
         return 0; /* the origin is on the plane */
     if (!tri->slim && speed * speed >= 0x1p-4 * frame->square)
         return distance / speed;

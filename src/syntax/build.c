@@ -8,13 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static void count_object(struct parser *p, struct span span)
-{
-    if (++p->ast->blocks > p->max_objects)
-        parser_stop(p, DIAG_TOO_MANY_OBJECTS, span,
-                    "more objects than --max-objects allows, so the rest is not read");
-}
-
 /* ---- native ---- */
 
 void parser_missing_version(struct parser *p)
@@ -68,7 +61,6 @@ struct ast_node *parser_block(struct parser *p, struct span span, struct str nam
 {
     struct ast_node *n = ast_named(p->ast, AST_BLOCK, span, name, name_span);
     n->label = label;
-    count_object(p, name_span);
     return ast_holding(n, members);
 }
 
@@ -140,11 +132,25 @@ static bool is_blank(struct str s)
     return str_trim(s).n == 0;
 }
 
+/* True when the piece ends where the text begins, and both are the source's own bytes. */
+static bool continues_text(const struct parser *p, const struct ast_node *piece, struct span span,
+                           struct str text)
+{
+    const char *source = p->source->text;
+    return piece->span.end == span.begin && text.at == source + (span.begin - p->source->base) &&
+           piece->text.at == source + (piece->span.begin - p->source->base);
+}
+
 struct xml_content xml_add_text(struct parser *p, struct xml_content c, struct span span,
                                 struct str text)
 {
     if (!text.n || (!c.text.first && is_blank(text)))
         return c; /* leading blanks would be trimmed anyway */
+    if (c.text.last && continues_text(p, c.text.last, span, text)) {
+        c.text.last->text.n += text.n;
+        c.text.last->span.end = span.end;
+        return c;
+    }
     c.text = ast_append(c.text, ast_text(p->ast, AST_TEXT, span, text));
     return c;
 }
@@ -153,8 +159,11 @@ struct xml_content xml_add_text(struct parser *p, struct xml_content c, struct s
 static struct ast_node *join_text(struct parser *p, struct ast_list pieces, struct span inner)
 {
     struct ast_node *first = pieces.first;
-    if (!first)
-        return ast_text(p->ast, AST_TEXT, inner, (struct str){"", 0});
+    if (!first) {
+        if (!p->no_text)
+            p->no_text = ast_text(p->ast, AST_TEXT, inner, (struct str){"", 0});
+        return p->no_text;
+    }
     struct str source = srcmap_text(p->diag->sources, first->span);
     if (!first->next && source.at == first->text.at) {
         struct str trimmed = str_trim(first->text);
@@ -197,7 +206,6 @@ struct ast_node *xml_element(struct parser *p, struct span span, struct str name
         struct ast_node *leaf = ast_named(p->ast, AST_PROPERTY, span, name, name_span);
         return ast_with(leaf, join_text(p, content.text, inner));
     }
-    count_object(p, name_span);
     struct ast_list members = ast_concat(attributes, content.children);
     members = ast_concat(members, visible_text(content.text));
     return ast_holding(ast_named(p->ast, AST_BLOCK, span, name, name_span), members);
@@ -242,6 +250,16 @@ struct str xml_reference(struct parser *p, struct str name, struct span span)
     return (struct str){0};
 }
 
+/* Bytes of the reference at `at`, from `&` to `;`, as the scanner takes one; 0: none. */
+static size_t reference_length(const char *at, const char *end)
+{
+    static const char letters[] = "#ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+    const char *q = at + 1;
+    while (q < end && memchr(letters, *q, sizeof letters - 1))
+        q++;
+    return q < end && *q == ';' ? (size_t)(q + 1 - at) : 0;
+}
+
 struct str xml_attribute_value(struct parser *p, struct span span, struct str s)
 {
     if (!s.n || !memchr(s.at, '&', s.n))
@@ -249,16 +267,18 @@ struct str xml_attribute_value(struct parser *p, struct span span, struct str s)
     char *buffer = arena_alloc(&p->ast->arena, s.n), *out = buffer;
     const char *end = s.at + s.n;
     for (const char *at = s.at; at < end;) {
-        const char *semicolon = *at == '&' ? memchr(at, ';', (size_t)(end - at)) : NULL;
-        if (!semicolon) {
+        uint32_t place = span.begin + 1 + (uint32_t)(at - s.at);
+        size_t n = *at == '&' ? reference_length(at, end) : 0;
+        if (*at == '&' && !n)
+            xml_stray_ampersand(p, (struct span){place, place + 1});
+        if (!n) {
             *out++ = *at++;
             continue;
         }
-        uint32_t place = span.begin + 1 + (uint32_t)(at - s.at);
-        struct str text = xml_reference(p, (struct str){at + 1, (size_t)(semicolon - at - 1)},
-                                        (struct span){place, place + (uint32_t)(semicolon + 1 - at)});
+        struct span whole = {place, place + (uint32_t)n};
+        struct str text = xml_reference(p, (struct str){at + 1, n - 2}, whole);
         out = text.n ? (char *)memcpy(out, text.at, text.n) + text.n : out;
-        at = semicolon + 1;
+        at += n;
     }
     return (struct str){buffer, (size_t)(out - buffer)};
 }

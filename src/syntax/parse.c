@@ -27,7 +27,7 @@ static void close_scanner(struct parser *p, bool xml)
     (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
 }
 
-static void run(const struct source *source, int start_token, size_t max_objects, struct ast *out,
+static void run(const struct source *source, int start_token, struct ast *out,
                 struct diag *diag)
 {
     struct span start = {source->base, source->base};
@@ -36,19 +36,17 @@ static void run(const struct source *source, int start_token, size_t max_objects
                        .source = source,
                        .start = start_token,
                        .at = source->base,
-                       .max_objects = max_objects,
                        .previous = start,
                        .now = start};
     if (!open_scanner(&p, out->xml))
         mem_exhausted(source->n);
-    if (scene_parse(&p) == 2)
+    if (scene_parse(&p) == 2 && !p.stopped)
         mem_exhausted(source->n);
     close_scanner(&p, out->xml);
     vec_free(&p.open);
 }
 
-bool syntax_parse(const struct source *source, size_t max_objects, struct ast *out,
-                  struct diag *diag)
+bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag)
 {
     struct str text = {source->text, source->n};
     size_t errors = diag->errors;
@@ -57,7 +55,7 @@ bool syntax_parse(const struct source *source, size_t max_objects, struct ast *o
         diag_report(diag, DIAG_EMPTY_FILE, (struct span){source->base, source->base},
                     "the file is empty, so there is no scene");
     else
-        run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, max_objects, out, diag);
+        run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, out, diag);
     return diag->errors == errors;
 }
 
@@ -67,7 +65,7 @@ void syntax_parse_value(const struct srcmap *sources, const struct source *sourc
     struct diag silent;
     diag_init(&silent, sources);
     ast_init(out, source, false);
-    run(source, TOKEN_START_VALUE, SIZE_MAX, out, &silent);
+    run(source, TOKEN_START_VALUE, out, &silent);
     if (silent.errors || !out->statements)
         out->statements = ast_text(out, AST_STRING, (struct span){source->base, source->base},
                                    (struct str){source->text, source->n});

@@ -9,6 +9,9 @@
 /* Brackets, blocks and elements may nest this deep. */
 enum { NESTING_LIMIT = 256 };
 
+/* Nodes of one text's tree: bounds its memory (some 5 GB). */
+enum { NODE_LIMIT = 1 << 26 };
+
 /* The content of an element while it is read: its children and the pieces of its text. */
 struct xml_content {
     struct ast_list children, text;
@@ -25,7 +28,6 @@ struct parser {
     const struct source *source;
     void *scanner;          /* flex's yyscan_t */
     uint32_t at;            /* offset of the next unread byte */
-    size_t max_objects;
     int start;              /* the token that chooses what is parsed; 0 once it was given */
     bool stopped;           /* a limit was hit: the end is feigned, errors are silent */
     struct span previous;   /* the token before the one under way */
@@ -35,6 +37,7 @@ struct parser {
     struct ast_list version; /* native: `wrt 1` */
     unsigned depth;          /* native: open brackets */
 
+    struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
     bool tag_end_due;              /* XML: a `>` to feign */

@@ -20,8 +20,7 @@ bool syntax_is_xml(struct str text);
 
 /* Parses a source into *out (initialised here; free with ast_free even after errors).  All
  * independent errors are reported; true when there were none. */
-bool syntax_parse(const struct source *source, size_t max_objects, struct ast *out,
-                  struct diag *diag);
+bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag);
 
 /* Parses the value of a `-D`: out->statements is one expression, or a string node with the whole
  * text when it is no expression. */
