@@ -43,7 +43,7 @@ struct hit {
     double t;
     uint32_t prim; /* number in the geometry, PRIM_NONE: nothing hit */
     uint32_t part; /* enum cylinder_part */
-    /* triangle: weights of the second and third vertex; geometry_hit_point works them out */
+    /* triangle: weights of the second and third vertex; geometry_weights works them out */
     double b1, b2;
 };
 
@@ -60,38 +60,39 @@ static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
 
 /* What the tests of one ray against many primitives share. */
 struct ray_frame {
-    double square, inverse_square; /* of the direction's length */
-    double tolerance, reach;       /* SPAWN_TOLERANCE and the origin's largest coordinate, or 0 */
+    double square;           /* of the direction's length */
+    double tolerance, reach; /* SPAWN_TOLERANCE and the origin's largest coordinate, or 0 */
+    double inverse_square;   /* for spheres */
     /* For triangles: */
     double shear_x, shear_y; /* the direction's other two components over the largest */
     int axis;                /* of the direction's largest component */
 };
 
-/* Without the part for triangles. */
-static inline struct ray_frame ray_frame_for_round(const struct ray *ray)
+/* With the parts for spheres, for triangles, or both. */
+static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bool spheres,
+                                  bool triangles)
 {
-    double square = vec3_dot(ray->direction, ray->direction);
-    return (struct ray_frame){ .square = square,
-                               .inverse_square = 1 / square,
-                               .tolerance = ray->spawned ? SPAWN_TOLERANCE : 0,
-                               .reach = ray->spawned ? vec3_largest(ray->origin) : 0 };
+    struct vec3 d = ray->direction;
+    f->square = vec3_dot(d, d);
+    f->tolerance = ray->spawned ? SPAWN_TOLERANCE : 0;
+    f->reach = ray->spawned ? vec3_largest(ray->origin) : 0;
+    if (spheres)
+        f->inverse_square = 1 / f->square;
+    if (!triangles)
+        return;
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    if (x > y && x > z)
+        f->axis = 0, f->shear_x = d.y / d.x, f->shear_y = d.z / d.x;
+    else if (y > z)
+        f->axis = 1, f->shear_x = d.z / d.y, f->shear_y = d.x / d.y;
+    else
+        f->axis = 2, f->shear_x = d.x / d.z, f->shear_y = d.y / d.z;
 }
 
 static inline struct ray_frame ray_frame_of(const struct ray *ray)
 {
-    struct ray_frame f = ray_frame_for_round(ray);
-    struct vec3 d = ray->direction;
-    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
-    if (x > y && x > z) {
-        double inverse = 1 / d.x;
-        f.axis = 0, f.shear_x = d.y * inverse, f.shear_y = d.z * inverse;
-    } else if (y > z) {
-        double inverse = 1 / d.y;
-        f.axis = 1, f.shear_x = d.z * inverse, f.shear_y = d.x * inverse;
-    } else {
-        double inverse = 1 / d.z;
-        f.axis = 2, f.shear_x = d.x * inverse, f.shear_y = d.y * inverse;
-    }
+    struct ray_frame f;
+    ray_frame_init(&f, ray, true, true);
     return f;
 }
 

@@ -40,6 +40,8 @@ void shade_point_init(struct shade_point *s, const struct scene *scene, const st
     s->prim = hit->prim;
     s->surface = scene->geometry.prims.at[hit->prim].surface;
     const struct surface *surface = &scene->surfaces.at[s->surface];
+    if (surface->normals || surface->uvs)
+        geometry_weights(&scene->geometry, ray, hit);
     s->p = geometry_hit_point(&scene->geometry, ray, hit, &geometric);
     s->normal = surface_normal(scene, surface, hit, geometric);
     s->material = &scene->materials.at[surface->material];

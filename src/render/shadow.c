@@ -78,7 +78,23 @@ static struct ray shadow_ray(const struct shade_point *s, struct vec3 target, do
                          .spawned = true };
 }
 
-/* A ray is blocked when its nearest hit is not emissive; without emissive surfaces, when it hits
+static bool is_emissive(const struct tracer *t, uint32_t prim)
+{
+    return t->emissive[t->scene->geometry.prims.at[prim].surface];
+}
+
+/* Whether light may get past some target to a ray. */
+static bool lets_light(const struct tracer *t, const struct target_list *list)
+{
+    if (!t->any_emissive || !list->usable)
+        return t->any_emissive;
+    for (uint32_t i = 0; i < list->n; i++)
+        if (is_emissive(t, list->at[i].prim))
+            return true;
+    return false;
+}
+
+/* A ray is blocked when its nearest hit is not emissive; where nothing is emissive, when it hits
  * anything. */
 static void find_blocked(struct worker *w, const struct target_list *list, const struct ray *rays,
                          uint32_t n, bool *blocked)
@@ -86,14 +102,13 @@ static void find_blocked(struct worker *w, const struct target_list *list, const
     const struct tracer *t = w->tracer;
     struct hit hits[BATCH];
     w->stats.shadow += n;
-    if (!t->any_emissive) {
+    if (!lets_light(t, list)) {
         bundle_any(&t->accel, list, rays, n, blocked);
         return;
     }
     bundle_closest(&t->accel, list, rays, n, hits);
     for (uint32_t i = 0; i < n; i++)
-        blocked[i] = hits[i].prim != PRIM_NONE &&
-                     !t->emissive[t->scene->geometry.prims.at[hits[i].prim].surface];
+        blocked[i] = hits[i].prim != PRIM_NONE && !is_emissive(t, hits[i].prim);
 }
 
 /* What a ball of directions, seen from a point, is to a ball in the scene. */

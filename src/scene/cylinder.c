@@ -65,7 +65,7 @@ static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 di
         t1 = -2 * b / a;
     } else {
         double discriminant = r2 - mn * mn / a;
-        double q = -(b + copysign(sqrt(a * fmax(discriminant, 0)), b));
+        double q = -(b + copysign(sqrt(a * (discriminant > 0 ? discriminant : 0)), b));
         t0 = power / q;
         t1 = q / a;
     }
@@ -125,8 +125,8 @@ bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
     return power >= -2 * c->radius * rounding || z <= rounding || z >= c->height - rounding;
 }
 
-struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal)
+struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal)
 {
     const struct cylinder *c = cylinder_at(g, hit->prim);
     struct vec3 p = vec3_mad(vec3_sub(ray->origin, c->base), hit->t, ray->direction);

@@ -10,8 +10,8 @@
 struct shape {
     struct box (*bounds)(const struct geometry *g, uint32_t prim);
     bool (*lies_on)(const struct geometry *g, uint32_t prim, struct vec3 p);
-    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                             struct vec3 *normal);
+    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray,
+                             const struct hit *hit, struct vec3 *normal);
 };
 
 static const struct shape shapes[PRIM_KINDS] = {
@@ -66,7 +66,7 @@ void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, ui
     struct box b = box_add(box_add((struct box){ v[v0], v[v0] }, v[v1]), v[v2]);
     struct triangle t = { .vertex = { v0, v1, v2 },
                           .reach = fmax(vec3_largest(b.lo), vec3_largest(b.hi)) };
-    t.normal = triangle_unit_normal(v[v0], v[v1], v[v2], &t.slim);
+    t.normal = triangle_unit_normal(v[v0], v[v1], v[v2]);
     add_prim(g, PRIM_TRIANGLE, g->triangles.n, surface);
     vec_push(&g->triangles, t);
 }
@@ -101,8 +101,8 @@ bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
     return shape_of(g, prim)->lies_on(g, prim, p);
 }
 
-struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal)
+struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal)
 {
     return shape_of(g, hit->prim)->hit_point(g, ray, hit, normal);
 }

@@ -34,7 +34,6 @@ struct cylinder {
 
 struct triangle {
     uint32_t vertex[3];
-    bool slim;          /* a sharp corner at v0: its normal is less exact than its vertices */
     double reach;       /* largest |coordinate| of the corners */
     struct vec3 normal; /* unit, (v1 - v0) x (v2 - v0); zero for a triangle without area */
 };
@@ -73,11 +72,13 @@ bool geometry_intersect(const struct geometry *g, uint32_t prim, const struct ra
 /* Whether p lies on the primitive within rounding (its boundary included). */
 bool geometry_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
 
-/* The hit point, put back onto the primitive (projected to a sphere or cylinder, the weighted sum
- * of a triangle's vertices): within a few ulps of the surface whatever the ray's length.  Fills in
- * the weights of *hit and the unit normal there: outwards for sphere and cylinder,
- * (v1-v0) x (v2-v0) for a triangle. */
-struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal);
+/* The hit point, put back onto the primitive (projected to a sphere, a cylinder or a triangle's
+ * plane): within a few ulps of the surface whatever the ray's length.  *normal becomes the unit
+ * normal there: outwards for sphere and cylinder, (v1-v0) x (v2-v0) for a triangle. */
+struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal);
+
+/* Works out b1 and b2 of a hit on a triangle. */
+void geometry_weights(const struct geometry *g, const struct ray *ray, struct hit *hit);
 
 #endif

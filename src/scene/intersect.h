@@ -56,50 +56,85 @@ struct point2 {
     double x, y;
 };
 
-/* The corner seen from the ray: moved to its origin and sheared so that the ray runs along the
- * axis.  Equal corners of two triangles give equal results. */
-static inline struct point2 triangle_sheared(struct vec3 v, struct vec3 origin,
-                                             const struct ray_frame *f)
+/* The corners seen from a ray's origin. */
+struct seen_triangle {
+    struct vec3 a, b, c;
+};
+
+static inline struct seen_triangle triangle_seen(const struct geometry *g,
+                                                 const struct triangle *t, struct vec3 origin)
 {
-    struct vec3 p = vec3_sub(v, origin);
-    if (f->axis == 0)
+    const struct vec3 *v = g->vertices.at;
+    return (struct seen_triangle){ vec3_sub(v[t->vertex[0]], origin),
+                                   vec3_sub(v[t->vertex[1]], origin),
+                                   vec3_sub(v[t->vertex[2]], origin) };
+}
+
+/* A corner sheared so that the ray runs along the axis.  Equal corners of two triangles give equal
+ * results. */
+static inline struct point2 triangle_sheared(struct vec3 p, const struct ray_frame *f, int axis)
+{
+    if (axis == 0)
         return (struct point2){ p.y - f->shear_x * p.x, p.z - f->shear_y * p.x };
-    if (f->axis == 1)
+    if (axis == 1)
         return (struct point2){ p.z - f->shear_x * p.y, p.x - f->shear_y * p.y };
     return (struct point2){ p.x - f->shear_x * p.z, p.y - f->shear_y * p.z };
 }
 
 /* Whether the sheared corners enclose the ray, by exact signs. */
-bool triangle_encloses(const struct point2 corner[3]);
+bool triangle_encloses(struct point2 a, struct point2 b, struct point2 c);
 
 /* The distance of a ray that the corners enclose; 0 or not a number when it does not count. */
 double triangle_distance(const struct geometry *g, const struct triangle *t, const struct ray *ray,
                          const struct ray_frame *frame);
 
-/* -1 or 1 where the difference of the products is sure to have that sign in spite of rounding. */
-static inline int sure_sign(double product, double other)
+static inline double least_of_3(double a, double b, double c)
 {
-    double sure = 0x1p-50 * (fabs(product) + fabs(other));
-    return (product - other > sure) - (product - other < -sure);
+    double m = a < b ? a : b;
+    return m < c ? m : c;
+}
+
+static inline double most_of_3(double a, double b, double c)
+{
+    double m = a > b ? a : b;
+    return m > c ? m : c;
 }
 
 /* Watertight edge tests (Woop, Benthin, Wald, Watertight ray/triangle intersection, JCGT 2013) in
- * double; plain products decide all but the nearest misses. */
-static inline bool triangle_meets_line(const struct geometry *g, const struct triangle *t,
-                                       const struct ray *ray, const struct ray_frame *frame)
+ * double.  Plain products decide wherever they are sure of their signs. */
+static inline bool triangle_meets_axis(const struct seen_triangle *seen, const struct ray_frame *f,
+                                       int axis)
 {
-    const struct vec3 *v = g->vertices.at;
-    struct point2 corner[3];
-    for (int i = 0; i < 3; i++)
-        corner[i] = triangle_sheared(v[t->vertex[i]], ray->origin, frame);
-    struct point2 a = corner[0], b = corner[1], c = corner[2];
-    int u = sure_sign(c.x * b.y, c.y * b.x), v_ = sure_sign(a.x * c.y, a.y * c.x);
-    int w = sure_sign(b.x * a.y, b.y * a.x), sum = u + v_ + w;
-    if (sum == 3 || sum == -3)
-        return true;
-    if ((u | v_ | w) < 0 && (u > 0 || v_ > 0 || w > 0))
+    struct point2 a = triangle_sheared(seen->a, f, axis), b = triangle_sheared(seen->b, f, axis);
+    struct point2 c = triangle_sheared(seen->c, f, axis);
+    double u1 = c.x * b.y, u2 = c.y * b.x, v1 = a.x * c.y, v2 = a.y * c.x;
+    double w1 = b.x * a.y, w2 = b.y * a.x, u = u1 - u2, v_ = v1 - v2, w = w1 - w2;
+    double sure = 0x1p-50 * most_of_3(fabs(u1) + fabs(u2), fabs(v1) + fabs(v2),
+                                      fabs(w1) + fabs(w2));
+    double least = least_of_3(u, v_, w), most = most_of_3(u, v_, w);
+    if (least < -sure && most > sure)
         return false;
-    return triangle_encloses(corner);
+    return least > sure || most < -sure || triangle_encloses(a, b, c);
+}
+
+static inline bool triangle_meets_line(const struct seen_triangle *seen, const struct ray_frame *f)
+{
+    if (f->axis == 0)
+        return triangle_meets_axis(seen, f, 0);
+    if (f->axis == 1)
+        return triangle_meets_axis(seen, f, 1);
+    return triangle_meets_axis(seen, f, 2);
+}
+
+/* The hit at t, if it comes before *best. */
+static inline bool target_offer(double t, uint32_t prim, uint32_t part, struct hit *best)
+{
+    if (!hit_before(t, prim, best))
+        return false;
+    best->t = t;
+    best->prim = prim;
+    best->part = part;
+    return true;
 }
 
 /* See geometry_intersect. */
@@ -115,15 +150,11 @@ static inline bool target_intersect(const struct geometry *g, struct target targ
         t = cylinder_distance(&g->cylinders.at[target.index], ray, frame, &part);
     } else if (target.prim != ray->from) {
         const struct triangle *triangle = &g->triangles.at[target.index];
-        if (triangle_meets_line(g, triangle, ray, frame))
+        struct seen_triangle seen = triangle_seen(g, triangle, ray->origin);
+        if (triangle_meets_line(&seen, frame))
             t = triangle_distance(g, triangle, ray, frame);
     }
-    if (!hit_before(t, target.prim, best))
-        return false;
-    best->t = t;
-    best->prim = target.prim;
-    best->part = part;
-    return true;
+    return target_offer(t, target.prim, part, best);
 }
 
 #endif

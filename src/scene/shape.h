@@ -7,20 +7,20 @@
 
 struct box sphere_bounds(const struct geometry *g, uint32_t prim);
 bool sphere_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
-struct vec3 sphere_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                             struct vec3 *normal);
+struct vec3 sphere_hit_point(const struct geometry *g, const struct ray *ray,
+                             const struct hit *hit, struct vec3 *normal);
 
 struct box cylinder_bounds(const struct geometry *g, uint32_t prim);
 bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
-struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal);
+struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal);
 
 struct box triangle_bounds(const struct geometry *g, uint32_t prim);
 bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
-struct vec3 triangle_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal);
+struct vec3 triangle_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal);
 
-/* The unit normal of three corners, zero when they span no area; *slim as in struct triangle. */
-struct vec3 triangle_unit_normal(struct vec3 v0, struct vec3 v1, struct vec3 v2, bool *slim);
+/* The unit normal of three corners, zero when they span no area. */
+struct vec3 triangle_unit_normal(struct vec3 v0, struct vec3 v1, struct vec3 v2);
 
 #endif

@@ -27,7 +27,7 @@ struct box triangle_bounds(const struct geometry *g, uint32_t prim)
 /* The edges are brought to the order of 1 by a power of two, so that no product under- or
  * overflows; divided by its length, a normal along a coordinate is exactly that, whatever the
  * triangle: coplanar triangles then meet a ray at equal distances. */
-struct vec3 triangle_unit_normal(struct vec3 v0, struct vec3 v1, struct vec3 v2, bool *slim)
+struct vec3 triangle_unit_normal(struct vec3 v0, struct vec3 v1, struct vec3 v2)
 {
     struct vec3 e1 = vec3_sub(v1, v0), e2 = vec3_sub(v2, v0);
     int x1, x2;
@@ -37,7 +37,6 @@ struct vec3 triangle_unit_normal(struct vec3 v0, struct vec3 v1, struct vec3 v2,
     e2 = vec3_scale(e2, ldexp(1, -x2));
     struct vec3 n = vec3_cross(e1, e2);
     double length = vec3_length(n);
-    *slim = !(length > 0x1p-4 * vec3_length(e1) * vec3_length(e2));
     if (!(length > 0 && length <= DBL_MAX))
         return vec3_all(0);
     return vec3(n.x / length, n.y / length, n.z / length);
@@ -49,10 +48,9 @@ static double edge(struct point2 p, struct point2 q)
     return difference_of_products(p.x, q.y, p.y, q.x);
 }
 
-bool triangle_encloses(const struct point2 corner[3])
+bool triangle_encloses(struct point2 a, struct point2 b, struct point2 c)
 {
-    double u = edge(corner[2], corner[1]), v = edge(corner[0], corner[2]);
-    double w = edge(corner[1], corner[0]);
+    double u = edge(c, b), v = edge(a, c), w = edge(b, a);
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
         return false;
     return fabs(u + v + w) > 0;
@@ -93,7 +91,7 @@ double triangle_distance(const struct geometry *g, const struct triangle *tri,
     double rounding = frame->tolerance * (frame->reach + tri->reach);
     if (fabs(distance) <= rounding)
         return 0; /* the origin is on the plane */
-    if (!tri->slim && speed * speed >= 0x1p-4 * frame->square)
+    if (speed * speed >= 0x1p-4 * frame->square)
         return distance / speed;
     return vec3_largest(n) > 0 ? clamp_to_bounds(g, tri, ray, distance / speed) : 0;
 }
@@ -114,36 +112,33 @@ bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
     return vec3_largest(t->normal) > 0;
 }
 
-/* The weights from plain products, unless these are so much larger than the area that rounding
- * would show. */
-static void find_weights(const struct geometry *g, const struct triangle *t, const struct ray *ray,
-                         struct hit *hit)
-{
-    struct ray_frame frame = ray_frame_of(ray);
-    struct point2 k[3];
-    for (int i = 0; i < 3; i++)
-        k[i] = triangle_sheared(corner_at(g, t, i), ray->origin, &frame);
-    double u = k[2].x * k[1].y - k[2].y * k[1].x, v = k[0].x * k[2].y - k[0].y * k[2].x;
-    double w = k[1].x * k[0].y - k[1].y * k[0].x, area = u + v + w, largest = 0;
-    for (int i = 0; i < 3; i++)
-        largest = fmax(largest, fmax(fabs(k[i].x), fabs(k[i].y)));
-    if (!(largest * largest <= 16 * fabs(area))) {
-        u = edge(k[2], k[1]);
-        v = edge(k[0], k[2]);
-        w = edge(k[1], k[0]);
-        area = u + v + w;
-    }
-    hit->b1 = v / area;
-    hit->b2 = w / area;
-}
-
-struct vec3 triangle_hit_point(const struct geometry *g, const struct ray *ray, struct hit *hit,
-                               struct vec3 *normal)
+/* From plain products, unless these are so much larger than the area that rounding would show. */
+void geometry_weights(const struct geometry *g, const struct ray *ray, struct hit *hit)
 {
     const struct triangle *t = triangle_at(g, hit->prim);
-    find_weights(g, t, ray, hit);
+    struct ray_frame f;
+    ray_frame_init(&f, ray, false, true);
+    struct seen_triangle seen = triangle_seen(g, t, ray->origin);
+    struct point2 a = triangle_sheared(seen.a, &f, f.axis), b = triangle_sheared(seen.b, &f, f.axis);
+    struct point2 c = triangle_sheared(seen.c, &f, f.axis);
+    double u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
+    double largest = most_of_3(fabs(a.x), fabs(b.x), fabs(c.x)) *
+                     most_of_3(fabs(a.y), fabs(b.y), fabs(c.y));
+    if (!(largest <= 16 * fabs(u + v + w))) {
+        u = edge(c, b);
+        v = edge(a, c);
+        w = edge(b, a);
+    }
+    hit->b1 = v / (u + v + w);
+    hit->b2 = w / (u + v + w);
+}
+
+/* Moved along the normal onto the plane: exactly onto it when the plane lies along two axes. */
+struct vec3 triangle_hit_point(const struct geometry *g, const struct ray *ray,
+                               const struct hit *hit, struct vec3 *normal)
+{
+    const struct triangle *t = triangle_at(g, hit->prim);
+    struct vec3 p = vec3_mad(ray->origin, hit->t, ray->direction);
     *normal = t->normal;
-    struct vec3 p = vec3_scale(corner_at(g, t, 0), 1 - hit->b1 - hit->b2);
-    p = vec3_mad(p, hit->b1, corner_at(g, t, 1));
-    return vec3_mad(p, hit->b2, corner_at(g, t, 2));
+    return vec3_mad(p, vec3_dot(t->normal, vec3_sub(corner_at(g, t, 0), p)), t->normal);
 }

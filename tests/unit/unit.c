@@ -10,6 +10,10 @@ int main(void)
     SRunner *runner = srunner_create(NULL);
     srunner_add_suite(runner, image_suite());
     srunner_add_suite(runner, mesh_suite());
+    srunner_add_suite(runner, bvh_suite());
+    srunner_add_suite(runner, geometry_suite());
+    srunner_add_suite(runner, render_suite());
+    srunner_add_suite(runner, texture_suite());
     srunner_run_all(runner, CK_ENV);
     int failed = srunner_ntests_failed(runner);
     srunner_free(runner);

@@ -4,7 +4,11 @@
 
 #include <check.h>
 
+Suite *bvh_suite(void);
+Suite *geometry_suite(void);
 Suite *image_suite(void);
 Suite *mesh_suite(void);
+Suite *render_suite(void);
+Suite *texture_suite(void);
 
 #endif
