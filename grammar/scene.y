@@ -209,10 +209,9 @@ content:
 
 static int yyreport_syntax_error(const yypcontext_t *context, struct parser *p)
 {
-    enum { MOST = 6 };
-    yysymbol_kind_t expected[MOST];
-    const char *names[MOST];
-    int n = yypcontext_expected_tokens(context, expected, MOST);
+    yysymbol_kind_t expected[EXPECTED_MOST];
+    const char *names[EXPECTED_MOST];
+    int n = yypcontext_expected_tokens(context, expected, EXPECTED_MOST);
     if (n == YYENOMEM)
         return YYENOMEM;
     for (int i = 0; i < n; i++)

@@ -14,12 +14,18 @@ struct target_list {
     double nearest[TARGET_LIST_LIMIT]; /* no ray of unit length is shorter to the target */
 };
 
-/* accel_closest for n <= BUNDLE_LIMIT rays that can hit nothing but the list. */
-void bundle_closest(const struct accel *a, const struct target_list *list, const struct ray *rays,
-                    uint32_t n, struct hit *hits);
+/* Rays to trace together. */
+struct bundle {
+    const struct ray *rays;
+    uint32_t n;                     /* at most BUNDLE_LIMIT */
+    bool common_origin;             /* all have the same */
+    const struct target_list *list; /* they can hit nothing else */
+};
 
-/* Likewise accel_any. */
-void bundle_any(const struct accel *a, const struct target_list *list, const struct ray *rays,
-                uint32_t n, bool *blocked);
+/* accel_closest for all of them. */
+void bundle_closest(const struct accel *a, const struct bundle *b, struct hit *hits);
+
+/* accel_any for all of them. */
+void bundle_any(const struct accel *a, const struct bundle *b, bool *blocked);
 
 #endif

@@ -8,9 +8,9 @@
  * hierarchies, 2007), all three axes at once. */
 enum {
     BINS = 16,
-    LEAF_LIMIT = 4,  /* larger runs are always split */
-    SAH_DEPTH = 60,  /* deeper down runs are halved: at most 30 levels more */
-    TREE_LEAST = 5,  /* fewer primitives are tried one after another */
+    LEAF_LIMIT = 4, /* larger runs are always split */
+    SAH_DEPTH = 60, /* deeper down runs are halved: at most 30 levels more */
+    TREE_LEAST = 5, /* fewer primitives are tried one after another */
 };
 
 /* Cost of visiting a node over that of testing a primitive. */
@@ -42,7 +42,7 @@ struct binning {
 /* A run whose centers differ too little to be told apart gets a scale of 0 on that axis. */
 static struct binning binning_of(struct box centers)
 {
-    struct binning b = { centers.lo, { 0, 0, 0 } };
+    struct binning b = {centers.lo, {0, 0, 0}};
     struct vec3 d = vec3_sub(centers.hi, centers.lo);
     double most = BINS * (1 - 0x1p-40);
     b.scale.x = d.x > 0 && most / d.x <= DBL_MAX ? most / d.x : 0;
@@ -62,7 +62,7 @@ static void fill_bins(const struct builder *w, const struct binning *b, uint32_t
 {
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < BINS; i++)
-            bins[axis][i] = (struct bin){ box_empty(), 0 };
+            bins[axis][i] = (struct bin){box_empty(), 0};
     for (uint32_t i = begin; i < end; i++) {
         uint32_t prim = w->order[i];
         for (int axis = 0; axis < 3; axis++) {
@@ -91,7 +91,7 @@ static void best_of_axis(const struct bin bins[BINS], int axis, struct split *be
         n += bins[i - 1].n;
         double cost = n ? box_half_area(box) * n + above[i] : INFINITY;
         if (cost < best->cost)
-            *best = (struct split){ cost, axis, i };
+            *best = (struct split){cost, axis, i};
     }
 }
 
@@ -125,7 +125,7 @@ static uint32_t choose_split(struct builder *w, struct box box, uint32_t begin, 
     struct binning binning = binning_of(centers);
     struct bin bins[3][BINS];
     fill_bins(w, &binning, begin, end, bins);
-    struct split best = { INFINITY, 0, 0 };
+    struct split best = {INFINITY, 0, 0};
     for (int axis = 0; axis < 3; axis++)
         best_of_axis(bins[axis], axis, &best);
     if (n <= LEAF_LIMIT && !(best.cost + NODE_COST * box_half_area(box) < n * box_half_area(box)))
@@ -144,7 +144,7 @@ static struct box run_box(const struct builder *w, uint32_t begin, uint32_t end)
 static void set_child(struct bvh_node *node, int child, struct box box, uint32_t first,
                       uint32_t count)
 {
-    double planes[2][3] = { { box.lo.x, box.lo.y, box.lo.z }, { box.hi.x, box.hi.y, box.hi.z } };
+    double planes[2][3] = {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}};
     memcpy(node->plane[child], planes, sizeof planes);
     node->first[child] = first;
     node->count[child] = count;
@@ -182,9 +182,9 @@ static void build_nodes(struct builder *w, uint32_t n)
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
 {
     uint32_t n = (uint32_t)geometry->prims.n;
-    struct builder w = { .boxes = mem_alloc(n, sizeof *w.boxes),
-                         .centers = mem_alloc(n, sizeof *w.centers),
-                         .order = mem_alloc(n, sizeof *w.order) };
+    struct builder w = {.boxes = mem_alloc(n, sizeof *w.boxes),
+                        .centers = mem_alloc(n, sizeof *w.centers),
+                        .order = mem_alloc(n, sizeof *w.order)};
     struct box all = box_empty();
     for (uint32_t i = 0; i < n; i++) {
         w.order[i] = i;
@@ -194,12 +194,12 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
     }
     if (!brute_force && n >= TREE_LEAST)
         build_nodes(&w, n);
-    *a = (struct accel){ .geometry = geometry,
-                         .targets = mem_alloc(n, sizeof *a->targets),
-                         .target_count = n,
-                         .nodes = w.nodes,
-                         .node_count = w.node_count,
-                         .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0 };
+    *a = (struct accel){.geometry = geometry,
+                        .targets = mem_alloc(n, sizeof *a->targets),
+                        .target_count = n,
+                        .nodes = w.nodes,
+                        .node_count = w.node_count,
+                        .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0};
     for (uint32_t i = 0; i < n; i++)
         a->targets[i] = target_of(geometry, w.order[i]);
     free(w.boxes);
@@ -211,5 +211,5 @@ void accel_free(struct accel *a)
 {
     free(a->nodes);
     free(a->targets);
-    *a = (struct accel){ 0 };
+    *a = (struct accel){0};
 }

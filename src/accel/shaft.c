@@ -31,7 +31,7 @@ static void make_ready(struct shaft *s, struct vec3 lo_growth, struct vec3 hi_gr
 
 struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box directions)
 {
-    struct shaft s = { .start = origins, .t_max = INFINITY, .endless = true };
+    struct shaft s = {.start = origins, .t_max = INFINITY, .endless = true};
     s.padding = SHAFT_PADDING * (a->reach + box_reach(origins));
     make_ready(&s, directions.lo, directions.hi);
     return s;
@@ -41,9 +41,9 @@ struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box
 struct shaft shaft_between(const struct accel *a, struct box p, struct box q, double t_max)
 {
     double on = t_max - 1;
-    struct box end = { vec3_mad(vec3_scale(q.lo, t_max), -on, p.hi),
-                       vec3_mad(vec3_scale(q.hi, t_max), -on, p.lo) };
-    struct shaft s = { .start = p, .end = box_join(end, q), .t_max = 1, .spawned = true };
+    struct box end = {vec3_mad(vec3_scale(q.lo, t_max), -on, p.hi),
+                      vec3_mad(vec3_scale(q.hi, t_max), -on, p.lo)};
+    struct shaft s = {.start = p, .end = box_join(end, q), .t_max = 1, .spawned = true};
     s.padding = SHAFT_PADDING * (a->reach + box_reach(p) + box_reach(s.end));
     make_ready(&s, vec3_sub(s.end.lo, p.lo), vec3_sub(s.end.hi, p.hi));
     return s;
@@ -94,12 +94,36 @@ static bool crosses_plane(const struct accel *a, const struct shaft *s, uint32_t
     return !(s->spawned && start[1] - at <= rounding && start[0] - at >= -rounding);
 }
 
+static bool touches(const struct shaft *s, struct box b)
+{
+    double lo[3] = {b.lo.x, b.lo.y, b.lo.z}, hi[3] = {b.hi.x, b.hi.y, b.hi.z};
+    return touches_box(s, lo, hi);
+}
+
+/* The boxes of a slanting cylinder's slices are closer to it than its own box. */
+static bool touches_cylinder(const struct shaft *s, const struct cylinder *c)
+{
+    enum { SLICES = 4 };
+    struct vec3 e = c->axis, slice = vec3_scale(e, c->height / SLICES), from = c->base;
+    struct vec3 disc =
+        vec3(sqrt(e.y * e.y + e.z * e.z), sqrt(e.z * e.z + e.x * e.x), sqrt(e.x * e.x + e.y * e.y));
+    disc = vec3_scale(disc, c->radius);
+    for (int i = 0; i < SLICES; i++) {
+        struct vec3 to = vec3_add(from, slice);
+        if (touches(s, (struct box){vec3_sub(vec3_min(from, to), disc),
+                                    vec3_add(vec3_max(from, to), disc)}))
+            return true;
+        from = to;
+    }
+    return false;
+}
+
 bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target)
 {
-    struct box b = geometry_prim_bounds(a->geometry, target.prim);
-    double lo[3] = { b.lo.x, b.lo.y, b.lo.z }, hi[3] = { b.hi.x, b.hi.y, b.hi.z };
-    if (!touches_box(s, lo, hi))
+    if (!touches(s, geometry_prim_bounds(a->geometry, target.prim)))
         return false;
+    if (target.kind == PRIM_CYLINDER)
+        return touches_cylinder(s, &a->geometry->cylinders.at[target.index]);
     return target.kind != PRIM_TRIANGLE || s->endless || crosses_plane(a, s, target.index);
 }
 
@@ -119,7 +143,7 @@ static bool add_run(const struct accel *a, const struct shaft *s, uint32_t first
 
 static bool add_tree(const struct accel *a, const struct shaft *s, struct target_list *list)
 {
-    uint32_t stack[BVH_DEPTH_LIMIT + 1] = { 0 };
+    uint32_t stack[BVH_DEPTH_LIMIT + 1] = {0};
     int depth = 1;
     while (depth > 0) {
         const struct bvh_node *node = &a->nodes[stack[--depth]];
@@ -153,7 +177,7 @@ static double distance_to(const struct accel *a, const struct shaft *s, struct t
     double d;
     if (target.kind == PRIM_SPHERE) {
         const struct sphere *sphere = &a->geometry->spheres.at[target.index];
-        d = gap(s->start, (struct box){ sphere->center, sphere->center }) - sphere->radius;
+        d = gap(s->start, (struct box){sphere->center, sphere->center}) - sphere->radius;
     } else {
         d = gap(s->start, geometry_prim_bounds(a->geometry, target.prim));
     }

@@ -12,7 +12,7 @@ struct shaft {
     struct box start, end; /* end: of the points at t_max, unless endless */
     double t_max;
     bool endless;
-    bool spawned;          /* all rays are */
+    bool spawned; /* all rays are */
     double padding;
     /* Ready for tests: bounds at t = 0 with the padding, and 1 / their growth. */
     double lo[3], hi[3], lo_inverse[3], hi_inverse[3];

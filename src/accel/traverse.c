@@ -14,11 +14,11 @@ static struct walk walk_along(const struct accel *a, const struct ray *ray)
     struct vec3 o = ray->origin, d = ray->direction;
     double padding = BOX_PADDING * (a->reach + vec3_largest(o)), largest = vec3_largest(d);
     double x = copysign(padding, d.x), y = copysign(padding, d.y), z = copysign(padding, d.z);
-    return (struct walk){ { o.x + x, o.y + y, o.z + z },
-                          { o.x - x, o.y - y, o.z - z },
-                          { ray_inverse(d.x, largest), ray_inverse(d.y, largest),
-                            ray_inverse(d.z, largest) },
-                          { signbit(d.x) != 0, signbit(d.y) != 0, signbit(d.z) != 0 } };
+    return (struct walk){
+        {o.x + x, o.y + y, o.z + z},
+        {o.x - x, o.y - y, o.z - z},
+        {ray_inverse(d.x, largest), ray_inverse(d.y, largest), ray_inverse(d.z, largest)},
+        {signbit(d.x) != 0, signbit(d.y) != 0, signbit(d.z) != 0}};
 }
 
 /* Where the ray enters the box, or infinity when it misses it before t_max. */
@@ -71,8 +71,8 @@ static void closest_in_tree(const struct accel *a, const struct ray *ray,
     uint32_t at = 0;
     for (;;) {
         const struct bvh_node *node = &a->nodes[at];
-        double enter[2] = { enter_box(&walk, node->plane[0], hit->t),
-                            enter_box(&walk, node->plane[1], hit->t) };
+        double enter[2] = {enter_box(&walk, node->plane[0], hit->t),
+                           enter_box(&walk, node->plane[1], hit->t)};
         int nearer = enter[1] < enter[0];
         bool descended = false;
         for (int k = 0; k < 2; k++) {
@@ -85,7 +85,7 @@ static void closest_in_tree(const struct accel *a, const struct ray *ray,
                 at = node->first[child];
                 descended = true;
             } else {
-                stack[depth++] = (struct pending){ enter[child], node->first[child] };
+                stack[depth++] = (struct pending){enter[child], node->first[child]};
             }
         }
         if (descended)
@@ -99,11 +99,11 @@ static void closest_in_tree(const struct accel *a, const struct ray *ray,
     }
 }
 
-static bool any_in_tree(const struct accel *a, const struct ray *ray,
-                        const struct ray_frame *frame, struct hit *hit)
+static bool any_in_tree(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                        struct hit *hit)
 {
     struct walk walk = walk_along(a, ray);
-    uint32_t stack[BVH_DEPTH_LIMIT + 1] = { 0 };
+    uint32_t stack[BVH_DEPTH_LIMIT + 1] = {0};
     int depth = 1;
     while (depth > 0) {
         const struct bvh_node *node = &a->nodes[stack[--depth]];

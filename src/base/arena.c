@@ -34,7 +34,7 @@ void *arena_alloc(struct arena *a, size_t n)
 {
     if (n > PTRDIFF_MAX)
         mem_exhausted(n);
-    n = (n + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    n = (n + !n + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     if (n > (size_t)(a->end - a->at))
         add_block(a, n);
     void *p = a->at;

@@ -4,6 +4,8 @@
 
 #include "base/mem.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -115,7 +117,9 @@ const char *num_parse(const char *p, const char *end, double *out)
 size_t num_print(double x, char buf[NUM_PRINT_BYTES])
 {
     int n = 0;
-    for (int precision = 15; precision <= 17; precision++) {
+    /* every spelling of 15 digits is told apart, but for numbers too small for all their bits */
+    int precision = fabs(x) < DBL_MIN ? 1 : 15;
+    for (; precision <= 17; precision++) {
         n = snprintf(buf, NUM_PRINT_BYTES, "%.*g", precision, x);
         if (strtod(buf, NULL) == x)
             break;

@@ -112,8 +112,13 @@ static bool as_word(const struct target *t, const struct value *v)
 
 static bool as_file(const struct target *t, const struct value *v)
 {
+    if (v->type != VALUE_STRING)
+        return false;
     t->out->string = v->string;
-    return v->type == VALUE_STRING && v->string.n;
+    if (!v->string.n)
+        diag_report(t->e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes a file name, but this is empty",
+                    t->prop->native);
+    return v->string.n > 0;
 }
 
 static bool as_member(const struct target *t, const struct value *v, enum schema_group group)

@@ -11,7 +11,8 @@
 
 struct desc_value {
     struct span span;
-    uint32_t n; /* numbers or points given */
+    struct span second; /* TYPE_SIZE in XML: of the second leaf */
+    uint32_t n;         /* numbers or points given */
     union {
         double number[3];           /* numbers, vectors, colours; degrees for angles */
         struct vec3 *points;        /* TYPE_POINTS */
@@ -25,6 +26,8 @@ struct desc_prop {
     struct desc_prop *next; /* in the order given */
     enum schema_prop_id id;
     uint32_t leaves;        /* XML: bit n for each leaf of the property that is given */
+    bool broken;            /* the value was reported already */
+    bool inherited;         /* from the object this one was made from, which answers for it */
     struct span name_span;
     struct desc_value value;
 };
@@ -45,6 +48,7 @@ struct desc {
     struct arena arena;
     enum desc_model model;
     bool xml;
+    bool incomplete; /* something at the top was not understood, so absences mean nothing */
     struct span start; /* the scene's first bytes, for what is missing altogether */
     struct desc_object *camera; /* or NULL */
     VEC(struct desc_object *) textures, materials, lights, surfaces;

@@ -203,8 +203,13 @@ void eval_leaf(struct eval *e, struct desc_object *o, const struct ast_node *lea
     enum schema_prop_id id = object_find_prop(e, o, leaf->name, leaf->name_span, &part);
     struct desc_prop *p =
         id != SCHEMA_PROPS ? object_prop(e, o, id, part, leaf->name_span) : NULL;
-    if (!p || report_empty(e, id, leaf) || !read_value(e, id, part, leaf, &p->value))
-        o->broken = true;
+    bool right = p && !report_empty(e, id, leaf) && read_value(e, id, part, leaf, &p->value);
+    o->broken |= !right;
+    if (!p)
+        return;
+    p->broken |= !right;
+    if (schema_props[id].type == TYPE_SIZE && part > 0)
+        p->value.second = leaf->children->span;
     else
         p->value.span = leaf->children->span;
 }

@@ -93,8 +93,10 @@ static void eval_property(struct eval *e, struct desc_object *o, const struct as
         struct value v = eval_value(e, value);
         fits = p && value_convert(e, id, &v, &p->value);
     }
-    if (p)
+    if (p) {
         p->value.span = value->span;
+        p->broken = !fits;
+    }
     o->broken |= !fits;
 }
 
@@ -108,6 +110,7 @@ static void inherit(struct eval *e, struct desc_object *o, const struct desc_obj
         struct desc_prop *next = copy->next;
         *copy = *p;
         copy->next = next;
+        copy->inherited = true;
     }
     o->broken |= base->broken;
 }
@@ -167,6 +170,7 @@ static void add_light(struct eval *e, const struct ast_node *node)
 
 static void report_unknown_statement(struct eval *e, const struct ast_node *node)
 {
+    e->out->incomplete = true;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
                                            "unknown kind '%.*s'", STR_ARG(node->name));
     struct str_nearest nearest = str_nearest_to(node->name);

@@ -123,10 +123,11 @@ static void eval_inner_element(struct eval *e, struct desc_object *o, const stru
         diag_report(e->diag, DIAG_WRONG_TYPE, node->name_span,
                     "'%.*s' takes %s, without attributes or elements inside", STR_ARG(node->name),
                     schema_type_name(schema_props[id].type));
-        o->broken = true;
+        p->broken = o->broken = true;
         return;
     }
-    o->broken |= !p->value.object;
+    p->broken = !p->value.object;
+    o->broken |= p->broken;
 }
 
 static void eval_members(struct eval *e, struct desc_object *o, const struct ast_node *node)
@@ -311,6 +312,7 @@ static const struct section *find_section(struct eval *e, const struct ast_node 
             return &sections[i];
         str_nearest_try(&nearest, str_of(sections[i].name));
     }
+    e->out->incomplete = true;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, node->name_span,
                                            "unknown element '%.*s' of the scene",
                                            STR_ARG(node->name));

@@ -17,8 +17,7 @@ static inline uint64_t rng_mix(uint64_t x)
 }
 
 /* In [0, 1): number `dimension` of the sample of the pixel. */
-static inline double rng_uniform(uint64_t seed, uint64_t pixel, uint64_t sample,
-                                 uint64_t dimension)
+static inline double rng_uniform(uint64_t seed, uint64_t pixel, uint64_t sample, uint64_t dimension)
 {
     uint64_t x = rng_mix(rng_mix(rng_mix(rng_mix(seed) ^ pixel) ^ sample) ^ dimension);
     return (double)(x >> 11) * 0x1p-53;

@@ -15,11 +15,11 @@ struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
     struct vec3 y = vec3_normalize(vec3_mad(c->up, -vec3_dot(c->up, z), z));
     struct vec3 x = vec3_cross(z, y);
     double tx = tan(c->yfov * (PI / 180) * w / h), ty = tx * h / w;
-    return (struct lens){ .origin = c->origin,
-                          .across = vec3_scale(x, tx),
-                          .upwards = vec3_scale(y, ty),
-                          .ahead = c->compatible ? vec3_neg(z) : z,
-                          .mirrored = !c->compatible };
+    return (struct lens){.origin = c->origin,
+                         .across = vec3_scale(x, tx),
+                         .upwards = vec3_scale(y, ty),
+                         .ahead = c->compatible ? vec3_neg(z) : z,
+                         .mirrored = !c->compatible};
 }
 
 struct vec3 lens_direction(const struct lens *l, double u, double v)

@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 
 enum { TILE = 8 };
-_Static_assert(TILE * TILE == BATCH, "one sample a pixel of a tile makes a batch");
+_Static_assert(TILE *TILE == BATCH, "one sample a pixel of a tile makes a batch");
 
 /* A part of the picture cut into tiles that threads take in turn. */
 struct job {
@@ -25,30 +25,42 @@ struct job {
 
 static struct ray camera_ray(const struct tracer *t, struct vec3 direction)
 {
-    return (struct ray){ .origin = t->lens.origin,
-                         .direction = direction,
-                         .t_max = RAY_UNBOUNDED,
-                         .from = PRIM_NONE,
-                         .surface = SURFACE_NONE };
+    return (struct ray){.origin = t->lens.origin,
+                        .direction = direction,
+                        .t_max = RAY_UNBOUNDED,
+                        .from = PRIM_NONE,
+                        .surface = SURFACE_NONE};
 }
 
+/* Which of the samples of each pixel is traced, and where it is: the offset from the pixel's
+ * corner, in pixels. */
+struct sample {
+    uint32_t k, l;
+    double x, y;
+};
+
 /* original.md, section 3: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
- * at the pixel's corner, n x n are spread around it. */
-static struct vec3 sample_direction(const struct tracer *t, uint32_t i, uint32_t j, uint32_t k,
-                                    uint32_t l)
+ * at the pixel's corner, n x n are spread around it.  move_x and move_y jitter it, from 0 to 1. */
+static void place_sample(struct sample *s, double n, double move_x, double move_y)
+{
+    if (n == 1) {
+        s->x = move_x;
+        s->y = move_y;
+    } else {
+        s->x = (s->k + move_x) / n - 1 / (2 * n);
+        s->y = (s->l + move_y) / n - 1 / (2 * n);
+    }
+}
+
+static struct vec3 sample_direction(const struct tracer *t, uint32_t i, uint32_t j, struct sample s)
 {
     const struct render_options *o = t->options;
-    double n = o->grid, x = 0, y = 0;
     if (o->jitter) {
-        uint64_t pixel = (uint64_t)j * o->width + i, sample = (uint64_t)l * o->grid + k;
-        x = rng_uniform(o->seed, pixel, sample, 0);
-        y = rng_uniform(o->seed, pixel, sample, 1);
+        uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s.l * o->grid + s.k;
+        place_sample(&s, o->grid, rng_uniform(o->seed, pixel, number, 0),
+                     rng_uniform(o->seed, pixel, number, 1));
     }
-    if (o->grid > 1) {
-        x = (k + x) / n - 1 / (2 * n);
-        y = (l + y) / n - 1 / (2 * n);
-    }
-    return lens_direction(&t->lens, (i + x) / o->width, (j + y) / o->height);
+    return lens_direction(&t->lens, (i + s.x) / o->width, (j + s.y) / o->height);
 }
 
 /* The one ray of pixel (x, y), top left origin, of pictures that show something else. */
@@ -67,8 +79,8 @@ static struct tile tile_of(const struct job *job, size_t number)
 {
     uint32_t x = job->x0 + (uint32_t)(number % job->columns) * TILE;
     uint32_t y = job->y0 + (uint32_t)(number / job->columns) * TILE;
-    return (struct tile){ x, y, job->x1 - x < TILE ? job->x1 : x + TILE,
-                          job->y1 - y < TILE ? job->y1 : y + TILE };
+    return (struct tile){x, y, job->x1 - x < TILE ? job->x1 : x + TILE,
+                         job->y1 - y < TILE ? job->y1 : y + TILE};
 }
 
 static void report_progress(struct job *job, unsigned worker)
@@ -79,8 +91,8 @@ static void report_progress(struct job *job, unsigned worker)
         p->report(p->context, (double)done / (double)job->tiles);
 }
 
-/* Sums the samples (k, l) of all the tile's pixels, row by row. */
-static void add_samples(struct worker *w, const struct tile *tile, uint32_t k, uint32_t l,
+/* Adds this sample of all the tile's pixels to their sums, row by row. */
+static void add_samples(struct worker *w, const struct tile *tile, struct sample sample,
                         struct vec3 *sums)
 {
     struct ray rays[BATCH];
@@ -90,7 +102,7 @@ static void add_samples(struct worker *w, const struct tile *tile, uint32_t k, u
     for (uint32_t y = tile->y0; y < tile->y1; y++) {
         for (uint32_t x = tile->x0; x < tile->x1; x++) {
             uint32_t j = t->options->height - 1 - y;
-            rays[n++] = camera_ray(t, sample_direction(t, x, j, k, l));
+            rays[n++] = camera_ray(t, sample_direction(t, x, j, sample));
         }
     }
     w->stats.primary += n;
@@ -104,11 +116,15 @@ static void sample_tile(struct worker *w, const struct tile *tile, struct vec3 *
     uint32_t n = w->tracer->options->grid;
     for (uint32_t i = 0; i < BATCH; i++)
         colours[i] = vec3_all(0);
-    for (uint32_t k = 0; k < n; k++)
-        for (uint32_t l = 0; l < n; l++)
-            add_samples(w, tile, k, l, colours);
+    for (uint32_t k = 0; k < n; k++) {
+        for (uint32_t l = 0; l < n; l++) {
+            struct sample sample = {.k = k, .l = l};
+            place_sample(&sample, n, 0, 0);
+            add_samples(w, tile, sample, colours);
+        }
+    }
     double samples = (double)n * n;
-    for (uint32_t i = 0; i < BATCH; i++)
+    for (uint32_t i = 0; i < BATCH && n > 1; i++)
         colours[i] = vec3(colours[i].x / samples, colours[i].y / samples, colours[i].z / samples);
 }
 
@@ -191,14 +207,17 @@ static void find_range(struct job *job)
 static void tracer_init(struct tracer *t, const struct scene *scene,
                         const struct render_options *options)
 {
-    *t = (struct tracer){ .scene = scene,
-                          .options = options,
-                          .lens = lens_of(&scene->camera, options->width, options->height),
-                          .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps) };
+    *t = (struct tracer){.scene = scene,
+                         .options = options,
+                         .lens = lens_of(&scene->camera, options->width, options->height),
+                         .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps)};
     t->skips = !options->no_skip && !options->brute_force;
     accel_build(&t->accel, &scene->geometry, options->brute_force);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
+    t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
+    for (size_t i = 0; i < scene->materials.n; i++)
+        t->finishes[i] = finish_of(&scene->materials.at[i], t->skips);
     t->emissive = mem_alloc(scene->surfaces.n, sizeof *t->emissive);
     for (size_t i = 0; i < scene->surfaces.n; i++) {
         const struct material *m = &scene->materials.at[scene->surfaces.at[i].material];
@@ -212,6 +231,7 @@ static void tracer_free(struct tracer *t)
     for (size_t i = 0; i < t->scene->lights.n; i++)
         lamp_free(&t->lamps[i]);
     free(t->lamps);
+    free(t->finishes);
     free(t->emissive);
     accel_free(&t->accel);
 }
@@ -232,7 +252,7 @@ void render_scene(const struct scene *scene, const struct render_options *option
     double started = thread_seconds();
     tracer_init(&tracer, scene, options);
     double built = thread_seconds();
-    struct job job = { .tracer = &tracer, .out = out };
+    struct job job = {.tracer = &tracer, .out = out};
     job.workers = mem_zalloc(options->threads, sizeof *job.workers);
     for (unsigned i = 0; i < options->threads; i++)
         worker_init(&job.workers[i], &tracer);
@@ -240,8 +260,8 @@ void render_scene(const struct scene *scene, const struct render_options *option
         find_range(&job);
     cut_tiles(&job, options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
     thread_share(job.tiles, options->threads, render_tile, &job);
-    *stats = (struct render_stats){ .build_s = built - started,
-                                    .render_s = thread_seconds() - built };
+    *stats =
+        (struct render_stats){.build_s = built - started, .render_s = thread_seconds() - built};
     for (unsigned i = 0; i < options->threads; i++) {
         add_stats(stats, &job.workers[i].stats);
         worker_free(&job.workers[i]);

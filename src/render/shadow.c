@@ -4,7 +4,7 @@
 
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force)
 {
-    *lamp = (struct lamp){ .light = light, .box = { light->position, light->position } };
+    *lamp = (struct lamp){.light = light, .box = {light->position, light->position}};
     if (light->kind == LIGHT_AREA) {
         accel_build(&lamp->object, &light->object, brute_force);
         lamp->box = box_empty();
@@ -70,12 +70,12 @@ static void list_shadowers(const struct tracer *t, const struct lamp *lamp, stru
 
 static struct ray shadow_ray(const struct shade_point *s, struct vec3 target, double t_max)
 {
-    return (struct ray){ .origin = s->p,
-                         .direction = vec3_sub(target, s->p),
-                         .t_max = t_max,
-                         .from = s->prim,
-                         .surface = SURFACE_NONE,
-                         .spawned = true };
+    return (struct ray){.origin = s->p,
+                        .direction = vec3_sub(target, s->p),
+                        .t_max = t_max,
+                        .from = s->prim,
+                        .surface = SURFACE_NONE,
+                        .spawned = true};
 }
 
 static bool is_emissive(const struct tracer *t, uint32_t prim)
@@ -96,18 +96,17 @@ static bool lets_light(const struct tracer *t, const struct target_list *list)
 
 /* A ray is blocked when its nearest hit is not emissive; where nothing is emissive, when it hits
  * anything. */
-static void find_blocked(struct worker *w, const struct target_list *list, const struct ray *rays,
-                         uint32_t n, bool *blocked)
+static void find_blocked(struct worker *w, const struct bundle *b, bool *blocked)
 {
     const struct tracer *t = w->tracer;
     struct hit hits[BATCH];
-    w->stats.shadow += n;
-    if (!lets_light(t, list)) {
-        bundle_any(&t->accel, list, rays, n, blocked);
+    w->stats.shadow += b->n;
+    if (!lets_light(t, b->list)) {
+        bundle_any(&t->accel, b, blocked);
         return;
     }
-    bundle_closest(&t->accel, list, rays, n, hits);
-    for (uint32_t i = 0; i < n; i++)
+    bundle_closest(&t->accel, b, hits);
+    for (uint32_t i = 0; i < b->n; i++)
         blocked[i] = hits[i].prim != PRIM_NONE && !is_emissive(t, hits[i].prim);
 }
 
@@ -117,10 +116,10 @@ enum cover { COVER_NONE, COVER_SOME, COVER_ALL };
 /* The lamp as a shade point sees it. */
 struct aim {
     struct vec3 p, to_center;
-    double distance;  /* to the lamp's center */
-    double tangent;   /* length of a tangent to the lamp's ball */
-    double radius;    /* of the lamp's ball */
-    double reach;     /* to the light's position: how far a shadow ray goes */
+    double distance; /* to the lamp's center */
+    double tangent;  /* length of a tangent to the lamp's ball */
+    double radius;   /* of the lamp's ball */
+    double reach;    /* to the light's position: how far a shadow ray goes */
 };
 
 /* Rounding errors of the tests below are far smaller than this, relative to the distances. */
@@ -146,12 +145,13 @@ static enum cover ball_cover(const struct aim *aim, struct vec3 c, double r, dou
 
 static enum cover sphere_cover(const struct aim *aim, const struct sphere *s)
 {
-    double power = sphere_power(s, vec3_sub(aim->p, s->center), vec3_largest(aim->p),
-                                SPAWN_TOLERANCE);
+    double power =
+        sphere_power(s, vec3_sub(aim->p, s->center), vec3_largest(aim->p), SPAWN_TOLERANCE);
     if (!(power >= 0) || !(aim->distance > aim->radius))
         return COVER_SOME;
     enum cover cover = ball_cover(aim, s->center, s->radius, power);
-    /* The first hit from outside is no farther than the tangent; from the sphere, than through it. */
+    /* The first hit from outside is no farther than the tangent; from the sphere, than through it.
+     */
     double farthest = power == 0 ? 2 * s->radius : sqrt(power);
     if (cover == COVER_ALL && !(farthest < aim->reach * (1 - COVER_MARGIN)))
         return COVER_SOME;
@@ -173,12 +173,12 @@ static struct aim aim_at(const struct lamp *lamp, struct vec3 p)
 {
     struct vec3 to_center = vec3_sub(lamp->center, p);
     double square = vec3_dot(to_center, to_center);
-    return (struct aim){ .p = p,
-                         .to_center = to_center,
-                         .distance = sqrt(square),
-                         .tangent = sqrt(fmax(square - lamp->radius * lamp->radius, 0)),
-                         .radius = lamp->radius,
-                         .reach = vec3_length(vec3_sub(lamp->light->position, p)) };
+    return (struct aim){.p = p,
+                        .to_center = to_center,
+                        .distance = sqrt(square),
+                        .tangent = sqrt(fmax(square - lamp->radius * lamp->radius, 0)),
+                        .radius = lamp->radius,
+                        .reach = vec3_length(vec3_sub(lamp->light->position, p))};
 }
 
 /* Leaves in the list what can stand between this one point and the lamp; false when one of its
@@ -189,7 +189,7 @@ static bool narrow_list(const struct tracer *t, const struct lamp *lamp,
     const struct geometry *g = &t->scene->geometry;
     struct aim aim = aim_at(lamp, s->p);
     struct shaft shaft;
-    bool has_shaft = shaft_to_lamp(t, lamp, (struct box){ s->p, s->p }, &shaft);
+    bool has_shaft = shaft_to_lamp(t, lamp, (struct box){s->p, s->p}, &shaft);
     uint32_t n = 0;
     for (uint32_t i = 0; i < list->n; i++) {
         struct target target = list->at[i];
@@ -228,7 +228,7 @@ static void add_to_tally(struct worker *w, const struct target_list *list, const
                          const uint32_t *counts, uint32_t n, struct tally *tally)
 {
     bool blocked[BATCH];
-    find_blocked(w, list, rays, n, blocked);
+    find_blocked(w, &(struct bundle){rays, n, true, list}, blocked);
     for (uint32_t i = 0; i < n; i++) {
         tally->counted += counts[i];
         tally->lit += blocked[i] ? 0 : counts[i];
@@ -241,7 +241,7 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
 {
     const struct light *light = lamp->light;
     double reach = vec3_length(vec3_sub(light->position, s->p));
-    struct tally tally = { 0, 0 };
+    struct tally tally = {0, 0};
     struct ray rays[BATCH];
     uint32_t counts[BATCH], n = 0;
     for (size_t i = 0; i < light->points.n; i++) {
@@ -263,17 +263,17 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
 }
 
 /* `list`: what can stand between any point of the batch and the lamp. */
-static double area_share(struct worker *w, const struct lamp *lamp,
-                         const struct target_list *list, const struct shade_point *s)
+static double area_share(struct worker *w, const struct lamp *lamp, const struct target_list *list,
+                         const struct shade_point *s)
 {
     const struct tracer *t = w->tracer;
-    struct target_list own = { .usable = false };
+    struct target_list own = {.usable = false};
     if (!t->skips)
         return sampled_share(w, lamp, &own, s);
     if (list->usable)
         own = *list;
     else
-        list_shadowers(t, lamp, (struct box){ s->p, s->p }, &own);
+        list_shadowers(t, lamp, (struct box){s->p, s->p}, &own);
     bool hidden = own.usable && !narrow_list(t, lamp, s, &own);
     bool in_the_open = own.usable && own.n == 0 && lamp->always_counts;
     if (!hidden && !in_the_open)
@@ -282,24 +282,36 @@ static double area_share(struct worker *w, const struct lamp *lamp,
     return hidden ? 0 : 1;
 }
 
-static void point_shares(struct worker *w, const struct lamp *lamp,
-                         const struct target_list *list, uint32_t n, double *shares)
+static bool is_glowing(const struct shade_point *s)
+{
+    return s->finish->material->kind == MATERIAL_EMISSIVE;
+}
+
+/* Nothing stands between any of the points and the lamp. */
+static void open_shares(struct worker *w, uint32_t n, double *shares)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        shares[i] = 1;
+        w->stats.shadow_skipped += !is_glowing(&w->points[i]);
+    }
+}
+
+static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
+                         uint32_t n, double *shares)
 {
     struct ray rays[BATCH];
     bool blocked[BATCH];
     uint32_t which[BATCH], count = 0;
     for (uint32_t i = 0; i < n; i++) {
         shares[i] = 1;
-        if (w->points[i].material->kind == MATERIAL_EMISSIVE)
+        if (is_glowing(&w->points[i]))
             continue;
         which[count] = i;
         rays[count++] = shadow_ray(&w->points[i], lamp->light->position, 1);
     }
-    if (count == 0 || (list->usable && list->n == 0)) {
-        w->stats.shadow_skipped += count;
+    if (count == 0)
         return;
-    }
-    find_blocked(w, list, rays, count, blocked);
+    find_blocked(w, &(struct bundle){rays, count, count == 1, list}, blocked);
     for (uint32_t i = 0; i < count; i++)
         shares[which[i]] = blocked[i] ? 0 : 1;
 }
@@ -307,14 +319,16 @@ static void point_shares(struct worker *w, const struct lamp *lamp,
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint32_t n,
                  double *shares)
 {
-    struct target_list list = { .usable = false };
+    struct target_list list = {.usable = false};
     if (w->tracer->skips && n > 1)
         list_shadowers(w->tracer, lamp, box, &list);
     if (lamp->light->kind == LIGHT_POINT) {
-        point_shares(w, lamp, &list, n, shares);
+        if (list.usable && list.n == 0)
+            open_shares(w, n, shares);
+        else
+            point_shares(w, lamp, &list, n, shares);
         return;
     }
     for (uint32_t i = 0; i < n; i++)
-        shares[i] = w->points[i].material->kind == MATERIAL_EMISSIVE
-                        ? 1 : area_share(w, lamp, &list, &w->points[i]);
+        shares[i] = is_glowing(&w->points[i]) ? 1 : area_share(w, lamp, &list, &w->points[i]);
 }

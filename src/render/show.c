@@ -26,7 +26,7 @@ struct vec3 show_colour(const struct tracer *t, const struct ray *ray, const dou
     if (t->options->show == SHOW_DEPTH)
         return vec3_all(bytes ? distance_grey(hit.t, range) : hit.t);
     struct shade_point s;
-    shade_point_init(&s, t->scene, ray, &hit);
+    shade_point_init(&s, t, ray, &hit);
     if (t->options->show == SHOW_NORMALS)
         return vec3_add(vec3_scale(s.normal, 0.5), vec3_all(0.5));
     return number_colour(s.surface);

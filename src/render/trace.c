@@ -4,7 +4,7 @@
 
 void worker_init(struct worker *w, const struct tracer *tracer)
 {
-    *w = (struct worker){ .tracer = tracer };
+    *w = (struct worker){.tracer = tracer};
 }
 
 static void offspring_free(struct offspring *o)
@@ -42,12 +42,12 @@ static bool is_zero(struct vec3 v)
 static void add_ray(struct offspring *o, const struct shade_point *s, struct vec3 direction,
                     struct path path)
 {
-    vec_push(&o->rays, (struct ray){ .origin = s->p,
-                                     .direction = direction,
-                                     .t_max = RAY_UNBOUNDED,
-                                     .from = s->prim,
-                                     .surface = SURFACE_NONE,
-                                     .spawned = true });
+    vec_push(&o->rays, (struct ray){.origin = s->p,
+                                    .direction = direction,
+                                    .t_max = RAY_UNBOUNDED,
+                                    .from = s->prim,
+                                    .surface = SURFACE_NONE,
+                                    .spawned = true});
     vec_push(&o->paths, path);
 }
 
@@ -55,7 +55,7 @@ static void add_reflection(struct level *level, const struct shade_point *s, str
 {
     double cosine = vec3_dot(s->normal, s->incoming);
     struct vec3 direction = vec3_normalize(vec3_mad(s->incoming, -2 * cosine, s->normal));
-    add_ray(&level->reflected, s, direction, (struct path){ 1, SURFACE_NONE, s->ray, weight });
+    add_ray(&level->reflected, s, direction, (struct path){1, SURFACE_NONE, s->ray, weight});
 }
 
 /* Which surface a refracted ray is tested against alone before all others. */
@@ -71,7 +71,7 @@ static uint32_t surface_crossed(const struct scene *scene, const struct shade_po
 static void add_refraction(struct level *level, const struct scene *scene,
                            const struct shade_point *s, double index, struct vec3 weight)
 {
-    double ior = s->material->ior, eta = s->inside ? ior : index / ior;
+    double ior = s->finish->material->ior, eta = s->inside ? ior : index / ior;
     struct vec3 normal = s->inside ? vec3_neg(s->normal) : s->normal;
     double c = -vec3_dot(s->incoming, normal), k = 1 - eta * eta * (1 - c * c);
     if (!(k > 0))
@@ -79,7 +79,7 @@ static void add_refraction(struct level *level, const struct scene *scene,
     struct vec3 direction = vec3_scale(s->incoming, eta);
     direction = vec3_mad(direction, eta * c - sqrt(k), normal);
     add_ray(&level->refracted, s, direction,
-            (struct path){ s->inside ? 1 : ior, surface_crossed(scene, s), s->ray, weight });
+            (struct path){s->inside ? 1 : ior, surface_crossed(scene, s), s->ray, weight});
 }
 
 /* The hit of the ray with the surface it crossed, alone. */
@@ -90,9 +90,8 @@ static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_
     if (surface->prim_count == 1) {
         struct ray_frame frame = ray_frame_of(&ray);
         *hit = hit_none(ray.t_max);
-        return ray_has_direction(&ray) && geometry_intersect(&t->scene->geometry,
-                                                             surface->first_prim, &ray, &frame,
-                                                             hit);
+        return ray_has_direction(&ray) &&
+               geometry_intersect(&t->scene->geometry, surface->first_prim, &ray, &frame, hit);
     }
     ray.surface = crossed;
     return accel_closest(&t->accel, &ray, hit);
@@ -125,7 +124,7 @@ static uint32_t find_points(struct worker *w, const struct ray *rays, const stru
     struct hit hits[BATCH];
     uint32_t found = 0;
     find_targets(t, rays, n, &list);
-    bundle_closest(&t->accel, &list, rays, n, hits);
+    bundle_closest(&t->accel, &(struct bundle){rays, n, paths == NULL, &list}, hits);
     for (uint32_t i = 0; i < n; i++) {
         struct hit first;
         bool inside = paths && paths[i].crossed != SURFACE_NONE &&
@@ -133,7 +132,7 @@ static uint32_t find_points(struct worker *w, const struct ray *rays, const stru
         if (!inside && hits[i].prim == PRIM_NONE)
             continue;
         struct shade_point *s = &w->points[found++];
-        shade_point_init(s, t->scene, &rays[i], inside ? &first : &hits[i]);
+        shade_point_init(s, t, &rays[i], inside ? &first : &hits[i]);
         s->ray = i;
         s->inside = inside;
     }
@@ -145,7 +144,7 @@ static uint32_t find_points(struct worker *w, const struct ray *rays, const stru
 static void add_offspring(struct level *level, const struct scene *scene,
                           const struct shade_point *s, struct vec3 intensity, double index)
 {
-    const struct material *m = s->material;
+    const struct material *m = s->finish->material;
     struct vec3 reflected = vec3_mul(intensity, m->reflection);
     struct vec3 refracted = vec3_mul(intensity, m->refraction);
     if (!is_zero(reflected))
@@ -183,7 +182,7 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const
     for (uint32_t i = 0; i < found; i++) {
         const struct shade_point *s = &w->points[i];
         colours[s->ray] = w->light[i].direct;
-        if (depth < t->options->depth && s->material->kind >= MATERIAL_SHINY)
+        if (depth < t->options->depth && s->finish->bounces)
             add_offspring(level, t->scene, s, w->light[i].intensity,
                           paths ? paths[s->ray].index : 1);
     }

@@ -19,7 +19,16 @@ struct lamp {
     struct box box;      /* of the sample points, or of the position */
     struct vec3 center;  /* of a ball that the rays through all counted samples meet */
     double radius;
-    bool always_counts;  /* some sample point counts seen from anywhere */
+    bool always_counts; /* some sample point counts seen from anywhere */
+};
+
+/* What is known of a material beforehand. */
+struct finish {
+    const struct material *material;
+    bool bounces;     /* it reflects or refracts */
+    bool dull;        /* no highlight at all */
+    bool black;       /* its highlight is 0 times a power */
+    bool whole_power; /* the power of any cosine is a number; false without skips */
 };
 
 struct tracer {
@@ -27,10 +36,11 @@ struct tracer {
     const struct render_options *options;
     struct accel accel;
     struct lens lens;
-    struct lamp *lamps; /* one a light of the scene */
-    bool *emissive;     /* by surface: it does not block light */
+    struct lamp *lamps;      /* one a light of the scene */
+    struct finish *finishes; /* one a material */
+    bool *emissive;          /* by surface: it does not block light */
     bool any_emissive;
-    bool skips;         /* work whose outcome is known beforehand is left out */
+    bool skips; /* work whose outcome is known beforehand is left out */
 };
 
 /* Where a ray comes from. */
@@ -49,13 +59,13 @@ struct shade_point {
     uint32_t prim, surface;
     uint32_t ray; /* place in the batch */
     bool inside;  /* hit from inside, see original.md, section 4, refraction */
-    const struct material *material;
+    const struct finish *finish;
 };
 
 /* Light that arrives at a shade point. */
 struct shade_light {
     struct vec3 direct;    /* reflected towards the eye */
-    struct vec3 intensity; /* sum over all lights, shadowed or not */
+    struct vec3 intensity; /* where it bounces: sum over all lights, shadowed or not */
 };
 
 /* Rays of the next depth. */
@@ -87,7 +97,8 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint
                  double *shares);
 
 /* shade.c */
-void shade_point_init(struct shade_point *s, const struct scene *scene, const struct ray *ray,
+struct finish finish_of(const struct material *m, bool skips);
+void shade_point_init(struct shade_point *s, const struct tracer *t, const struct ray *ray,
                       struct hit *hit);
 /* Fills in w->light for the first n of w->points. */
 void shade_points(struct worker *w, uint32_t n);

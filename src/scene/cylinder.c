@@ -14,11 +14,11 @@ struct box cylinder_bounds(const struct geometry *g, uint32_t prim)
 {
     const struct cylinder *c = cylinder_at(g, prim);
     struct vec3 e = c->axis, top = vec3_mad(c->base, c->height, e);
-    struct vec3 disc = vec3(sqrt(e.y * e.y + e.z * e.z), sqrt(e.z * e.z + e.x * e.x),
-                            sqrt(e.x * e.x + e.y * e.y));
+    struct vec3 disc =
+        vec3(sqrt(e.y * e.y + e.z * e.z), sqrt(e.z * e.z + e.x * e.x), sqrt(e.x * e.x + e.y * e.y));
     disc = vec3_scale(disc, c->radius);
-    return (struct box){ vec3_sub(vec3_min(c->base, top), disc),
-                         vec3_add(vec3_max(c->base, top), disc) };
+    return (struct box){vec3_sub(vec3_min(c->base, top), disc),
+                        vec3_add(vec3_max(c->base, top), disc)};
 }
 
 /* The part of a line within a convex solid: from t[0] to t[1], and which part of the surface
@@ -28,13 +28,6 @@ struct stretch {
     uint32_t part[2];
 };
 
-/* Plain products: their error, relative to the lengths, is within what the angle to the axis costs
- * anyway. */
-static struct vec3 cross(struct vec3 a, struct vec3 b)
-{
-    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-
 static double reach_of(const struct cylinder *c)
 {
     return vec3_largest(c->base) + c->height + c->radius;
@@ -42,19 +35,19 @@ static double reach_of(const struct cylinder *c)
 
 /* Within the endless cylinder around the axis: |w + t n| <= r.  Lengths below `rounding` are
  * rounding errors. */
-static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 direction,
-                         double rounding, struct stretch *s)
+static bool clip_to_side(const struct cylinder *c, const struct seen_cylinder *seen,
+                         struct vec3 direction, double rounding, struct stretch *s)
 {
-    struct vec3 n = cross(direction, c->axis);
-    double a = vec3_dot(n, n), mn = vec3_dot(m, n), r2 = c->radius * c->radius;
-    if (mn * mn > r2 * a)
-        return false; /* the line passes the axis too far off; most rays end here */
-    struct vec3 w = cross(m, c->axis);
-    double b = vec3_dot(n, w), power = vec3_dot(w, w) - r2; /* of the origin: 0 on the side */
+    struct vec3 n = cylinder_cross(direction, c->axis);
+    double a = vec3_dot(n, n), off = vec3_dot(direction, seen->w), r2 = c->radius * c->radius;
+    if (off * off > r2 * a)
+        return false;
+    double b = vec3_dot(n, seen->w);
+    double power = vec3_dot(seen->w, seen->w) - r2; /* of the origin: 0 on the side */
     if (fabs(power) <= 2 * c->radius * rounding)
         power = 0;
     if (a == 0) {
-        *s = (struct stretch){ { -INFINITY, INFINITY }, { CYLINDER_SIDE, CYLINDER_SIDE } };
+        *s = (struct stretch){{-INFINITY, INFINITY}, {CYLINDER_SIDE, CYLINDER_SIDE}};
         return power <= 0;
     }
     if (power > 0 && !(b < 0))
@@ -64,13 +57,12 @@ static bool clip_to_side(const struct cylinder *c, struct vec3 m, struct vec3 di
         t0 = 0;
         t1 = -2 * b / a;
     } else {
-        double discriminant = r2 - mn * mn / a;
+        double discriminant = r2 - off * off / a;
         double q = -(b + copysign(sqrt(a * (discriminant > 0 ? discriminant : 0)), b));
         t0 = power / q;
         t1 = q / a;
     }
-    *s = (struct stretch){ { t0 < t1 ? t0 : t1, t0 < t1 ? t1 : t0 },
-                           { CYLINDER_SIDE, CYLINDER_SIDE } };
+    *s = (struct stretch){{t0 < t1 ? t0 : t1, t0 < t1 ? t1 : t0}, {CYLINDER_SIDE, CYLINDER_SIDE}};
     return true;
 }
 
@@ -99,13 +91,13 @@ static bool clip_to_caps(const struct cylinder *c, struct vec3 m, struct vec3 di
 }
 
 /* The active bound of the stretch tells side from cap, so nothing leaks at the rims. */
-double cylinder_distance(const struct cylinder *c, const struct ray *ray,
-                         const struct ray_frame *frame, uint32_t *part)
+double cylinder_distance(const struct cylinder *c, const struct seen_cylinder *seen,
+                         const struct ray *ray, const struct ray_frame *frame, uint32_t *part)
 {
-    struct vec3 m = vec3_sub(ray->origin, c->base), d = ray->direction;
+    struct vec3 d = ray->direction;
     double rounding = frame->tolerance * (frame->reach + reach_of(c));
     struct stretch s;
-    if (!clip_to_side(c, m, d, rounding, &s) || !clip_to_caps(c, m, d, rounding, &s) ||
+    if (!clip_to_side(c, seen, d, rounding, &s) || !clip_to_caps(c, seen->m, d, rounding, &s) ||
         !(s.t[0] <= s.t[1]))
         return 0;
     int end = s.t[0] > 0 ? 0 : 1;
@@ -116,7 +108,7 @@ double cylinder_distance(const struct cylinder *c, const struct ray *ray,
 bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
 {
     const struct cylinder *c = cylinder_at(g, prim);
-    struct vec3 m = vec3_sub(p, c->base), w = cross(m, c->axis);
+    struct vec3 m = vec3_sub(p, c->base), w = cylinder_cross(m, c->axis);
     double z = vec3_dot(m, c->axis), r2 = c->radius * c->radius;
     double power = vec3_dot(w, w) - r2;
     double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + reach_of(c));
@@ -140,7 +132,8 @@ struct vec3 cylinder_hit_point(const struct geometry *g, const struct ray *ray,
         z = 0;
     else if (hit->part == CYLINDER_TOP || z > c->height)
         z = c->height;
-    *normal = hit->part == CYLINDER_SIDE ? outwards
-              : hit->part == CYLINDER_TOP ? c->axis : vec3_neg(c->axis);
+    *normal = hit->part == CYLINDER_SIDE  ? outwards
+              : hit->part == CYLINDER_TOP ? c->axis
+                                          : vec3_neg(c->axis);
     return vec3_add(c->base, vec3_mad(across, z, c->axis));
 }

@@ -10,14 +10,14 @@
 struct shape {
     struct box (*bounds)(const struct geometry *g, uint32_t prim);
     bool (*lies_on)(const struct geometry *g, uint32_t prim, struct vec3 p);
-    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray,
-                             const struct hit *hit, struct vec3 *normal);
+    struct vec3 (*hit_point)(const struct geometry *g, const struct ray *ray, const struct hit *hit,
+                             struct vec3 *normal);
 };
 
 static const struct shape shapes[PRIM_KINDS] = {
-    [PRIM_SPHERE] = { sphere_bounds, sphere_lies_on, sphere_hit_point },
-    [PRIM_CYLINDER] = { cylinder_bounds, cylinder_lies_on, cylinder_hit_point },
-    [PRIM_TRIANGLE] = { triangle_bounds, triangle_lies_on, triangle_hit_point },
+    [PRIM_SPHERE] = {sphere_bounds, sphere_lies_on, sphere_hit_point},
+    [PRIM_CYLINDER] = {cylinder_bounds, cylinder_lies_on, cylinder_hit_point},
+    [PRIM_TRIANGLE] = {triangle_bounds, triangle_lies_on, triangle_hit_point},
 };
 
 static const struct shape *shape_of(const struct geometry *g, uint32_t prim)
@@ -37,14 +37,15 @@ void geometry_free(struct geometry *g)
 static void add_prim(struct geometry *g, enum prim_kind kind, size_t index, uint32_t surface)
 {
     assert(g->prims.n < GEOMETRY_LIMIT && index < GEOMETRY_LIMIT);
-    vec_push(&g->prims, (struct prim){ .kind = kind, .index = (uint32_t)index & (GEOMETRY_LIMIT - 1),
-                                       .surface = surface });
+    vec_push(&g->prims, (struct prim){.kind = kind,
+                                      .index = (uint32_t)index & (GEOMETRY_LIMIT - 1),
+                                      .surface = surface});
 }
 
 void geometry_add_sphere(struct geometry *g, uint32_t surface, struct vec3 center, double radius)
 {
     add_prim(g, PRIM_SPHERE, g->spheres.n, surface);
-    vec_push(&g->spheres, (struct sphere){ center, radius, vec3_largest(center) + radius });
+    vec_push(&g->spheres, (struct sphere){center, radius, vec3_largest(center) + radius});
 }
 
 void geometry_add_cylinder(struct geometry *g, uint32_t surface, struct vec3 base, struct vec3 top,
@@ -55,7 +56,7 @@ void geometry_add_cylinder(struct geometry *g, uint32_t surface, struct vec3 bas
     /* Divided, not scaled by 1/height: an axis along a coordinate is exactly that. */
     struct vec3 axis = vec3(along.x / height, along.y / height, along.z / height);
     add_prim(g, PRIM_CYLINDER, g->cylinders.n, surface);
-    vec_push(&g->cylinders, (struct cylinder){ base, axis, height, radius });
+    vec_push(&g->cylinders, (struct cylinder){base, axis, height, radius});
 }
 
 void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, uint32_t v1,
@@ -63,9 +64,9 @@ void geometry_add_triangle(struct geometry *g, uint32_t surface, uint32_t v0, ui
 {
     assert(v0 < g->vertices.n && v1 < g->vertices.n && v2 < g->vertices.n);
     const struct vec3 *v = g->vertices.at;
-    struct box b = box_add(box_add((struct box){ v[v0], v[v0] }, v[v1]), v[v2]);
-    struct triangle t = { .vertex = { v0, v1, v2 },
-                          .reach = fmax(vec3_largest(b.lo), vec3_largest(b.hi)) };
+    struct box b = box_add(box_add((struct box){v[v0], v[v0]}, v[v1]), v[v2]);
+    struct triangle t = {.vertex = {v0, v1, v2},
+                         .reach = fmax(vec3_largest(b.lo), vec3_largest(b.hi))};
     t.normal = triangle_unit_normal(v[v0], v[v1], v[v2]);
     add_prim(g, PRIM_TRIANGLE, g->triangles.n, surface);
     vec_push(&g->triangles, t);

@@ -13,7 +13,7 @@ struct target {
 static inline struct target target_of(const struct geometry *g, uint32_t prim)
 {
     struct prim p = g->prims.at[prim];
-    return (struct target){ prim, p.kind, p.index };
+    return (struct target){prim, p.kind, p.index};
 }
 
 /* |p - center|^2 - radius^2 of a point with f = p - center and largest coordinate `reach`; exactly
@@ -48,9 +48,36 @@ static inline double sphere_distance(const struct sphere *s, const struct ray *r
     return c > 0 || q < 0 ? c / q : q * frame->inverse_square;
 }
 
-/* The nearest of the cylinder's two possible hits above 0, or 0, and the part hit. */
-double cylinder_distance(const struct cylinder *c, const struct ray *ray,
-                         const struct ray_frame *frame, uint32_t *part);
+/* A cylinder seen from a ray's origin. */
+struct seen_cylinder {
+    struct vec3 m; /* from the base to the origin */
+    struct vec3 w; /* m x axis */
+};
+
+/* Plain products: their error, relative to the lengths, is within what the angle to the axis costs
+ * anyway. */
+static inline struct vec3 cylinder_cross(struct vec3 a, struct vec3 b)
+{
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+static inline struct seen_cylinder cylinder_seen(const struct cylinder *c, struct vec3 origin)
+{
+    struct vec3 m = vec3_sub(origin, c->base);
+    return (struct seen_cylinder){m, cylinder_cross(m, c->axis)};
+}
+
+/* False when the ray's line passes the axis too far off; most rays end here. */
+static inline bool cylinder_is_near(const struct cylinder *c, const struct seen_cylinder *seen,
+                                    const struct ray *ray, const struct ray_frame *frame)
+{
+    double off = vec3_dot(ray->direction, seen->w); /* distance times |direction x axis| */
+    return off * off <= c->radius * c->radius * frame->square;
+}
+
+/* The nearest of the two possible hits above 0, or 0, and the part hit. */
+double cylinder_distance(const struct cylinder *c, const struct seen_cylinder *seen,
+                         const struct ray *ray, const struct ray_frame *frame, uint32_t *part);
 
 struct point2 {
     double x, y;
@@ -61,13 +88,13 @@ struct seen_triangle {
     struct vec3 a, b, c;
 };
 
-static inline struct seen_triangle triangle_seen(const struct geometry *g,
-                                                 const struct triangle *t, struct vec3 origin)
+static inline struct seen_triangle triangle_seen(const struct geometry *g, const struct triangle *t,
+                                                 struct vec3 origin)
 {
     const struct vec3 *v = g->vertices.at;
-    return (struct seen_triangle){ vec3_sub(v[t->vertex[0]], origin),
-                                   vec3_sub(v[t->vertex[1]], origin),
-                                   vec3_sub(v[t->vertex[2]], origin) };
+    return (struct seen_triangle){vec3_sub(v[t->vertex[0]], origin),
+                                  vec3_sub(v[t->vertex[1]], origin),
+                                  vec3_sub(v[t->vertex[2]], origin)};
 }
 
 /* A corner sheared so that the ray runs along the axis.  Equal corners of two triangles give equal
@@ -75,10 +102,10 @@ static inline struct seen_triangle triangle_seen(const struct geometry *g,
 static inline struct point2 triangle_sheared(struct vec3 p, const struct ray_frame *f, int axis)
 {
     if (axis == 0)
-        return (struct point2){ p.y - f->shear_x * p.x, p.z - f->shear_y * p.x };
+        return (struct point2){p.y - f->shear_x * p.x, p.z - f->shear_y * p.x};
     if (axis == 1)
-        return (struct point2){ p.z - f->shear_x * p.y, p.x - f->shear_y * p.y };
-    return (struct point2){ p.x - f->shear_x * p.z, p.y - f->shear_y * p.z };
+        return (struct point2){p.z - f->shear_x * p.y, p.x - f->shear_y * p.y};
+    return (struct point2){p.x - f->shear_x * p.z, p.y - f->shear_y * p.z};
 }
 
 /* Whether the sheared corners enclose the ray, by exact signs. */
@@ -109,8 +136,8 @@ static inline bool triangle_meets_axis(const struct seen_triangle *seen, const s
     struct point2 c = triangle_sheared(seen->c, f, axis);
     double u1 = c.x * b.y, u2 = c.y * b.x, v1 = a.x * c.y, v2 = a.y * c.x;
     double w1 = b.x * a.y, w2 = b.y * a.x, u = u1 - u2, v_ = v1 - v2, w = w1 - w2;
-    double sure = 0x1p-50 * most_of_3(fabs(u1) + fabs(u2), fabs(v1) + fabs(v2),
-                                      fabs(w1) + fabs(w2));
+    double sure =
+        0x1p-50 * most_of_3(fabs(u1) + fabs(u2), fabs(v1) + fabs(v2), fabs(w1) + fabs(w2));
     double least = least_of_3(u, v_, w), most = most_of_3(u, v_, w);
     if (least < -sure && most > sure)
         return false;
@@ -147,7 +174,10 @@ static inline bool target_intersect(const struct geometry *g, struct target targ
     if (target.kind == PRIM_SPHERE) {
         t = sphere_distance(&g->spheres.at[target.index], ray, frame);
     } else if (target.kind == PRIM_CYLINDER) {
-        t = cylinder_distance(&g->cylinders.at[target.index], ray, frame, &part);
+        const struct cylinder *cylinder = &g->cylinders.at[target.index];
+        struct seen_cylinder seen = cylinder_seen(cylinder, ray->origin);
+        if (cylinder_is_near(cylinder, &seen, ray, frame))
+            t = cylinder_distance(cylinder, &seen, ray, frame, &part);
     } else if (target.prim != ray->from) {
         const struct triangle *triangle = &g->triangles.at[target.index];
         struct seen_triangle seen = triangle_seen(g, triangle, ray->origin);

@@ -13,7 +13,7 @@ struct grid_axis {
 
 static struct grid_axis grid_axis(double lo, double hi, uint32_t samples)
 {
-    struct grid_axis a = { mem_alloc(samples, sizeof *a.at), mem_alloc(samples, sizeof *a.count), 0 };
+    struct grid_axis a = {mem_alloc(samples, sizeof *a.at), mem_alloc(samples, sizeof *a.count), 0};
     for (uint32_t i = 0; i < samples; i++) {
         double x = i + 1 < samples ? lo + (hi - lo) * (i / (double)(samples - 1)) : hi;
         if (a.n > 0 && a.at[a.n - 1] == x) {
@@ -62,11 +62,11 @@ void light_sample_grid(struct light *l, struct box box, uint32_t samples)
         for (uint32_t j = 0; j < y.n; j++) {
             for (uint32_t k = 0; k < z.n; k++) {
                 struct vec3 p = vec3(x.at[i], y.at[j], z.at[k]);
-                vec_push(&l->points, (struct light_point){
-                                         .position = p,
-                                         .count = x.count[i] * y.count[j] * z.count[k],
-                                         .on_object = lies_on_object(&l->object, p),
-                                         .inside = lies_inside(&l->object, p) });
+                vec_push(&l->points,
+                         (struct light_point){.position = p,
+                                              .count = x.count[i] * y.count[j] * z.count[k],
+                                              .on_object = lies_on_object(&l->object, p),
+                                              .inside = lies_inside(&l->object, p)});
             }
         }
     }

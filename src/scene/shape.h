@@ -7,8 +7,8 @@
 
 struct box sphere_bounds(const struct geometry *g, uint32_t prim);
 bool sphere_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);
-struct vec3 sphere_hit_point(const struct geometry *g, const struct ray *ray,
-                             const struct hit *hit, struct vec3 *normal);
+struct vec3 sphere_hit_point(const struct geometry *g, const struct ray *ray, const struct hit *hit,
+                             struct vec3 *normal);
 
 struct box cylinder_bounds(const struct geometry *g, uint32_t prim);
 bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p);

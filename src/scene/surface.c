@@ -16,13 +16,13 @@ static struct vec2 sphere_uv(const struct sphere *s, struct vec3 p)
     double phi = acos(clamp(d.y / s->radius, -1, 1));
     double q = sqrt(d.x * d.x + d.z * d.z);
     if (q == 0)
-        return (struct vec2){ 0, -phi / PI };
+        return (struct vec2){0, -phi / PI};
     double theta = asin(d.z / q);
     if (d.x < 0)
         theta = PI - theta;
     if (theta < 0)
         theta += 2 * PI;
-    return (struct vec2){ theta / (2 * PI), -phi / PI };
+    return (struct vec2){theta / (2 * PI), -phi / PI};
 }
 
 static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)
@@ -35,7 +35,7 @@ static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)
         z = vec3_dot(p, vec3_normalize(vec3_cross(vec3(0, 1, 0), e)));
     }
     double turn = atan(x / z) / (2 * PI);
-    return (struct vec2){ z <= 0 ? -(0.5 + turn) : -turn, clamp(along / c->height, 0, 1) };
+    return (struct vec2){z <= 0 ? -(0.5 + turn) : -turn, clamp(along / c->height, 0, 1)};
 }
 
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
@@ -48,11 +48,11 @@ struct vec2 surface_uv(const struct scene *s, const struct surface *surface, con
     if (prim->kind == PRIM_CYLINDER)
         return cylinder_uv(&g->cylinders.at[prim->index], p);
     if (surface->uvs == NULL)
-        return (struct vec2){ 0, 0 };
+        return (struct vec2){0, 0};
     const struct vec2 *uv = surface->uvs + 3 * (size_t)(hit->prim - surface->first_prim);
     double b0 = 1 - hit->b1 - hit->b2;
-    return (struct vec2){ b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
-                          b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y };
+    return (struct vec2){b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
+                         b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y};
 }
 
 /* Where the vertex normals cancel out, the face's own is taken. */
@@ -61,8 +61,8 @@ static struct vec3 smooth_normal(const struct geometry *g, const struct surface 
 {
     const struct triangle *t = &g->triangles.at[g->prims.at[hit->prim].index];
     const struct vec3 *normals = surface->normals;
-    struct vec3 n = vec3_scale(normals[t->vertex[0] - surface->first_vertex],
-                               1 - hit->b1 - hit->b2);
+    struct vec3 n =
+        vec3_scale(normals[t->vertex[0] - surface->first_vertex], 1 - hit->b1 - hit->b2);
     n = vec3_mad(n, hit->b1, normals[t->vertex[1] - surface->first_vertex]);
     n = vec3_mad(n, hit->b2, normals[t->vertex[2] - surface->first_vertex]);
     return vec3_largest(n) > 0 ? vec3_normalize(n) : t->normal;

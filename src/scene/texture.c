@@ -13,20 +13,22 @@ struct texel_place {
 static struct texel_place place_on(double u, uint32_t size)
 {
     if (u == 1)
-        return (struct texel_place){ size - 1, 1 };
+        return (struct texel_place){size - 1, 1};
     double t = u * size;
     if (!(fabs(t) < 0x1p62)) { /* too large to have a fraction, or no number */
         double at = fmod(t, size);
-        return (struct texel_place){ at >= 0 ? (uint32_t)at : at < 0 ? (uint32_t)(at + size) : 0,
-                                     at < 0 ? 1 : 0 };
+        return (struct texel_place){at >= 0  ? (uint32_t)at
+                                    : at < 0 ? (uint32_t)(at + size)
+                                             : 0,
+                                    at < 0 ? 1 : 0};
     }
     int64_t at = (int64_t)t;
     double rest = fabs(t - (double)at);
     if (at < 0 || at >= size)
         at %= (int64_t)size;
     if (at < 0)
-        return (struct texel_place){ (uint32_t)(at + size), 1 - rest };
-    return (struct texel_place){ (uint32_t)at, rest };
+        return (struct texel_place){(uint32_t)(at + size), 1 - rest};
+    return (struct texel_place){(uint32_t)at, rest};
 }
 
 /* From 0 to 255, or 65535; row 0 is the bottom. */

@@ -16,7 +16,7 @@ static struct vec3 corner_at(const struct geometry *g, const struct triangle *t,
 static struct box corner_bounds(const struct geometry *g, const struct triangle *t)
 {
     struct vec3 a = corner_at(g, t, 0), b = corner_at(g, t, 1), c = corner_at(g, t, 2);
-    return (struct box){ vec3_min(vec3_min(a, b), c), vec3_max(vec3_max(a, b), c) };
+    return (struct box){vec3_min(vec3_min(a, b), c), vec3_max(vec3_max(a, b), c)};
 }
 
 struct box triangle_bounds(const struct geometry *g, uint32_t prim)
@@ -119,11 +119,12 @@ void geometry_weights(const struct geometry *g, const struct ray *ray, struct hi
     struct ray_frame f;
     ray_frame_init(&f, ray, false, true);
     struct seen_triangle seen = triangle_seen(g, t, ray->origin);
-    struct point2 a = triangle_sheared(seen.a, &f, f.axis), b = triangle_sheared(seen.b, &f, f.axis);
+    struct point2 a = triangle_sheared(seen.a, &f, f.axis),
+                  b = triangle_sheared(seen.b, &f, f.axis);
     struct point2 c = triangle_sheared(seen.c, &f, f.axis);
     double u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
-    double largest = most_of_3(fabs(a.x), fabs(b.x), fabs(c.x)) *
-                     most_of_3(fabs(a.y), fabs(b.y), fabs(c.y));
+    double largest =
+        most_of_3(fabs(a.x), fabs(b.x), fabs(c.x)) * most_of_3(fabs(a.y), fabs(b.y), fabs(c.y));
     if (!(largest <= 16 * fabs(u + v + w))) {
         u = edge(c, b);
         v = edge(a, c);

@@ -184,14 +184,19 @@ static struct ast_node *join_text(struct parser *p, struct ast_list pieces, stru
 }
 
 /* The pieces that are not blank, to be refused where only elements may stand. */
-static struct ast_list visible_text(struct ast_list pieces)
+static struct ast_list visible_text(const struct parser *p, struct ast_list pieces)
 {
     struct ast_list kept = {0};
     for (struct ast_node *t = pieces.first, *next; t; t = next) {
         next = t->next;
         t->next = NULL;
-        if (!is_blank(t->text))
-            kept = ast_append(kept, t);
+        if (is_blank(t->text))
+            continue;
+        if (t->text.at == srcmap_text(p->diag->sources, t->span).at) {
+            t->span = span_of_trimmed(t->span, t->text);
+            t->text = str_trim(t->text);
+        }
+        kept = ast_append(kept, t);
     }
     return kept;
 }
@@ -207,7 +212,7 @@ struct ast_node *xml_element(struct parser *p, struct span span, struct str name
         return ast_with(leaf, join_text(p, content.text, inner));
     }
     struct ast_list members = ast_concat(attributes, content.children);
-    members = ast_concat(members, visible_text(content.text));
+    members = ast_concat(members, visible_text(p, content.text));
     return ast_holding(ast_named(p->ast, AST_BLOCK, span, name, name_span), members);
 }
 

@@ -27,6 +27,23 @@ static struct span place_of_error(const struct parser *p, struct span found)
     return later ? (struct span){p->previous.end, p->previous.end} : found;
 }
 
+/* Many things are expected in few places: where a value may begin, or a statement or member. */
+static size_t summarise(const char *const *expected, size_t n, const char **out)
+{
+    enum { MOST = 6 };
+    for (size_t i = 0; i < n; i++)
+        out[i] = expected[i];
+    if (n <= MOST)
+        return n;
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(expected[i], "string") == 0) {
+            out[0] = "value";
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static bool is_reserved(const char *found)
 {
     return strcmp(found, "reserved word") == 0;
@@ -35,20 +52,24 @@ static bool is_reserved(const char *found)
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n)
 {
-    if (p->stopped)
+    if (p->stopped || p->feigned)
         return;
+    const char *shown[EXPECTED_MOST];
     char words[256], what[80];
-    list_words(words, sizeof words, expected, n);
+    n = summarise(expected, n, shown);
+    list_words(words, sizeof words, shown, n);
     struct str text = srcmap_text(p->diag->sources, span);
     bool quote = !at_end && text.n && text.n < 40 && !memchr(text.at, '\n', text.n);
     if (quote)
         snprintf(what, sizeof what, "'%.*s'", STR_ARG(text));
     else
         snprintf(what, sizeof what, "the %s", found);
-    struct span place = place_of_error(p, span);
+    bool something_else = n && strcmp(shown[0], "end of file") != 0;
+    struct span place = something_else || at_end ? place_of_error(p, span) : span;
     struct diag_entry *e =
-        n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
-          : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
+        n        ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
+        : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
+                 : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
     if (is_reserved(found))
         diag_note(e, "%s is reserved for a statement that this version does not read", what);
 }
@@ -79,6 +100,7 @@ void parser_unclosed_tag(struct parser *p, struct span span)
 {
     if (!p->stopped)
         diag_report(p->diag, DIAG_SYNTAX, span, "expected '>' to end the tag");
+    p->feigned = true;
 }
 
 void xml_declaration(struct parser *p, struct span span)

@@ -41,6 +41,7 @@ struct parser {
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
     bool tag_end_due;              /* XML: a `>` to feign */
+    bool feigned;                  /* XML: the token stands for one whose absence was reported */
 };
 
 /* ---- tokens.c: for both scanners ---- */
@@ -52,6 +53,9 @@ void parser_untake(struct parser *p, size_t n);
 void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span);
 /* White space: keeps a blank line as trivia. */
 void parser_blank(struct parser *p, struct span span, struct str text);
+
+/* The place of a text without the blanks around it, which lies at `span`. */
+struct span span_of_trimmed(struct span span, struct str text);
 
 /* Reports and ends the reading: what follows would only add noise or cost. */
 void parser_stop(struct parser *p, enum diag_code code, struct span span, const char *message);
@@ -91,6 +95,8 @@ bool xml_close_due(struct parser *p);
 
 /* ---- mistakes.c: what both scanners and the grammar report ---- */
 
+/* Names of tokens that an error may list. */
+enum { EXPECTED_MOST = 32 };
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n);
 /* What began at p->comment_begin never ends; points at its first `mark` bytes. */

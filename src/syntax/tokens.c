@@ -52,19 +52,31 @@ void parser_unnest(struct parser *p)
     p->depth -= p->depth > 0;
 }
 
+struct span span_of_trimmed(struct span span, struct str text)
+{
+    struct str visible = str_trim(text);
+    uint32_t begin = span.begin + (uint32_t)(visible.at - text.at);
+    return (struct span){begin, begin + (uint32_t)visible.n};
+}
+
 static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
     *span = (struct span){p->at, p->at};
+    p->feigned = true;
     if (p->tag_end_due) {
         p->tag_end_due = false;
         return TOKEN_XML_TAG_END;
     }
     if (xml_close_due(p))
         return TOKEN_XML_CLOSE;
+    p->feigned = false;
     int token;
     do /* blanks around the root element mean nothing */
         token = xml_scan(value, span, p->scanner);
     while (token == TOKEN_XML_TEXT && !p->open.n && !str_trim(value->text).n);
+    p->feigned |= p->tag_end_due;
+    if (token == TOKEN_XML_TEXT && !p->open.n)
+        *span = span_of_trimmed(*span, value->text);
     return xml_balance(p, token, *span, value->text);
 }
 

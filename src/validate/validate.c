@@ -90,13 +90,14 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
     if (!s->has_least)
         return;
     for (unsigned i = 0; i < n; i++) {
-        if (in_range(s, p->value.number[i]))
+        bool given = !o->xml || n == 1 || p->leaves >> i & 1;
+        if (!given || in_range(s, p->value.number[i]))
             continue;
         char range[RANGE_BYTES];
         describe_range(s, range);
         struct str name = o->xml && n > 1 ? schema_leaf(p->id, i) : prop_name(o, p->id);
-        diag_report(diag, DIAG_OUT_OF_RANGE, p->value.span, "'%.*s' must be %s", STR_ARG(name),
-                    range);
+        diag_report(diag, DIAG_OUT_OF_RANGE, o->xml && i > 0 ? p->value.second : p->value.span,
+                    "'%.*s' must be %s", STR_ARG(name), range);
     }
 }
 
@@ -105,9 +106,11 @@ static bool check_props(const struct desc_object *o, struct diag *diag)
     size_t errors = diag->errors;
     if (!o->broken)
         check_required(o, diag);
-    for (const struct desc_prop *p = o->props; p && !o->broken; p = p->next) {
-        check_leaves(o, p, diag);
-        check_range(o, p, diag);
+    for (const struct desc_prop *p = o->props; p; p = p->next) {
+        if (!o->broken)
+            check_leaves(o, p, diag);
+        if (!p->broken && !p->inherited)
+            check_range(o, p, diag);
     }
     return !o->broken && diag->errors == errors;
 }
@@ -272,9 +275,9 @@ static void check_surface(const struct desc_object *o, bool in_scene, struct dia
 bool validate_scene(const struct desc *d, struct diag *diag)
 {
     size_t errors = diag->errors;
-    if (!d->camera)
+    if (!d->camera && !d->incomplete)
         diag_report(diag, DIAG_MISSING_OBJECT, d->start, "the scene has no camera");
-    else if (check_props(d->camera, diag))
+    if (d->camera && check_props(d->camera, diag))
         check_camera(d->camera, diag);
     for (size_t i = 0; i < d->textures.n; i++)
         check_props(d->textures.at[i], diag);

@@ -1,6 +1,6 @@
 # Sourced by cases with big inputs: `fill TEXT` repeats a text until there are $big bytes, which is
 # 100 MB and less where checks slow the program down.  The program gets 3 GB of memory.
-if [ -z "$WRT_WRAPPER" ] && (ulimit -v 3000000 && wrt --version) >/dev/null 2>&1; then
+if [ -z "$WRT_WRAPPER" ] && (ulimit -v 3000000 && ASAN_OPTIONS= "$WRT" --version; exit $?) >/dev/null 2>&1; then
     big=100000000
     ulimit -v 3000000
 else

@@ -8,6 +8,12 @@
 int main(void)
 {
     SRunner *runner = srunner_create(NULL);
+    srunner_add_suite(runner, base_suite());
+    srunner_add_suite(runner, diag_suite());
+    srunner_add_suite(runner, schema_suite());
+    srunner_add_suite(runner, syntax_suite());
+    srunner_add_suite(runner, eval_suite());
+    srunner_add_suite(runner, lower_suite());
     srunner_add_suite(runner, image_suite());
     srunner_add_suite(runner, mesh_suite());
     srunner_add_suite(runner, bvh_suite());

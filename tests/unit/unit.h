@@ -4,11 +4,17 @@
 
 #include <check.h>
 
+Suite *base_suite(void);
 Suite *bvh_suite(void);
+Suite *diag_suite(void);
+Suite *eval_suite(void);
 Suite *geometry_suite(void);
 Suite *image_suite(void);
+Suite *lower_suite(void);
 Suite *mesh_suite(void);
 Suite *render_suite(void);
+Suite *schema_suite(void);
+Suite *syntax_suite(void);
 Suite *texture_suite(void);
 
 #endif

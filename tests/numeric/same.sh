@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# The same bytes whatever the threads, with and without the tree of boxes, with and without every
+# skip, and for a crop: over all scenes at hand, in small; larger with WRT_FULL set or --full.
+set -u
+full=${WRT_FULL:-}
+[ "${1:-}" = --full ] && full=1
+wrt=${WRT:-build/wrt}
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+original=${WRT_SHARED:-$top/../shared}/original
+scenes=("$top"/scenes/*.xml "$top"/examples/*.wrt)
+if [ -d "$original" ]; then
+    scenes+=("$original"/*.xml)
+else
+    echo "SKIP: the original's scenes are not here ($original); only our own were rendered"
+fi
+
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+
+width=40 height=30
+[ -n "$full" ] && width=160 height=120
+
+# render NAME OPTIONS...: the scene at a small size into $tmp/NAME.ppm
+render()
+{
+    local name=$1
+    shift
+    "$wrt" render -q "$scene" --res "${width}x$height" -o "$tmp/$name.ppm" "$@" || echo "$scene: $* failed"
+}
+
+passed=0 failed=0
+
+# note SAME WHAT: counts, and names what differs.
+note()
+{
+    if [ -n "$1" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "$scene: ${*:2}: other bytes"
+    fi
+}
+
+# compare WHOLE OTHER OPTIONS...: the picture with these options against one already rendered.
+compare()
+{
+    render "$2" "${@:3}"
+    note "$(cmp -s "$tmp/$1.ppm" "$tmp/$2.ppm" && echo same)" "${@:3}"
+}
+
+for scene in "${scenes[@]}"; do
+    render whole -t 1
+    compare whole other -t 2
+    compare whole other -t 7
+    compare whole other --accel none
+    compare whole other --no-skip
+    render whole -t 1 -s 2 --jitter
+    compare whole other -t 3 -s 2 --jitter --no-skip
+    # the middle of the picture, cut out of the whole
+    render whole -t 1
+    render part --crop 10,8,31,20
+    {
+        printf 'P6\n21 12\n255\n'
+        for ((y = 8; y < 20; y++)); do
+            tail -c "$((3 * width * (height - y)))" "$tmp/whole.ppm" | tail -c +31 | head -c 63
+        done
+    } >"$tmp/cut.ppm"
+    note "$(cmp -s "$tmp/part.ppm" "$tmp/cut.ppm" && echo same)" --crop
+done
+echo "$passed passed, $failed failed, 0 skipped"
+[ "$failed" = 0 ]

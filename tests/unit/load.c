@@ -1,0 +1,74 @@
+#include "config.h"
+
+#include "load.h"
+
+#include "eval/eval.h"
+#include "syntax/syntax.h"
+#include "validate/validate.h"
+
+#include <string.h>
+
+void load_text(struct load *l, const char *name, const char *text)
+{
+    size_t n = strlen(text);
+    *l = (struct load){0};
+    srcmap_add(&l->sources, "before", mem_zalloc(10 + 2, 1), 10);
+    char *copy = mem_alloc(n + 2, 1);
+    memcpy(copy, text, n);
+    l->source = srcmap_add(&l->sources, name, copy, n);
+    diag_init(&l->diag, &l->sources);
+}
+
+static bool parse(struct load *l)
+{
+    return syntax_parse(l->source, &l->ast, &l->diag);
+}
+
+static bool eval(struct load *l)
+{
+    struct eval_options options = {.max_objects = SIZE_MAX};
+    return parse(l) && eval_scene(&l->ast, &options, &l->desc, &l->diag);
+}
+
+static bool validate(struct load *l)
+{
+    return eval(l) && validate_scene(&l->desc, &l->diag);
+}
+
+bool load_parse(struct load *l, const char *text)
+{
+    load_text(l, "scene", text);
+    return parse(l);
+}
+
+bool load_eval(struct load *l, const char *text)
+{
+    load_text(l, "scene", text);
+    return eval(l);
+}
+
+bool load_validate(struct load *l, const char *text)
+{
+    load_text(l, "scene", text);
+    return validate(l);
+}
+
+bool load_lower(struct load *l, const char *name, const char *text)
+{
+    load_text(l, name, text);
+    return validate(l) && lower_scene(&l->desc, &l->sources, &l->lowered, &l->diag);
+}
+
+void load_free(struct load *l)
+{
+    lower_free(&l->lowered);
+    desc_free(&l->desc);
+    ast_free(&l->ast);
+    diag_free(&l->diag);
+    srcmap_free(&l->sources);
+}
+
+const char *load_first(const struct load *l)
+{
+    return l->diag.entries.n ? l->diag.entries.at[0]->message : "";
+}

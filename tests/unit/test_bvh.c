@@ -1,0 +1,352 @@
+/* The tree, the lists of bundles and the search of everything must agree to the last bit. */
+#include "config.h"
+
+#include "unit.h"
+
+#include "accel/shaft.h"
+#include "math/rng.h"
+
+#include <string.h>
+
+/* How many of the tries are made: all, or some under a sanitizer. */
+#ifdef __SANITIZE_ADDRESS__
+#define TRIES(n) ((n) / 20)
+#else
+#define TRIES(n) (n)
+#endif
+
+static uint64_t counter;
+
+static double uniform(double lo, double hi)
+{
+    return lo + (hi - lo) * rng_uniform(2, counter++, 0, 0);
+}
+
+static uint32_t below(uint32_t n)
+{
+    return (uint32_t)uniform(0, n);
+}
+
+static struct vec3 random_vector(double size)
+{
+    return vec3(uniform(-size, size), uniform(-size, size), uniform(-size, size));
+}
+
+static void add_triangle(struct geometry *g, uint32_t surface, struct vec3 a, struct vec3 b,
+                         struct vec3 c)
+{
+    uint32_t v = geometry_add_vertex(g, a);
+    geometry_add_vertex(g, b);
+    geometry_add_vertex(g, c);
+    geometry_add_triangle(g, surface, v, v + 1, v + 2);
+}
+
+/* Something of every kind: slivers, no area at all, coplanar on whole numbers, equal twins, huge.
+ */
+static void add_any(struct geometry *g, uint32_t i, double size)
+{
+    struct vec3 at = random_vector(10 * size), a = vec3_add(at, random_vector(size));
+    struct vec3 b = vec3_add(at, random_vector(size));
+    switch (below(9)) {
+    case 0:
+    case 1:
+        geometry_add_sphere(g, i % 7, at, size * uniform(0.1, 2));
+        break;
+    case 2:
+        geometry_add_cylinder(g, i % 7, at, a, size * uniform(0.01, 1));
+        break;
+    case 3:
+        geometry_add_cylinder(g, i % 7, at, vec3(at.x, at.y + size, at.z), size);
+        break;
+    case 4:
+        add_triangle(g, i % 7, at, a, vec3_mad(a, 1e-9, random_vector(size)));
+        break;
+    case 5:
+        add_triangle(g, i % 7, at, a, at);
+        break;
+    case 6:
+        at = vec3_scale(vec3(below(4), 1, below(4)), size);
+        add_triangle(g, i % 7, at, vec3(at.x + 2 * size, size, at.z),
+                     vec3(at.x, size, at.z + size));
+        add_triangle(g, i % 7, at, vec3(at.x + 2 * size, size, at.z),
+                     vec3(at.x, size, at.z + size));
+        break;
+    case 7:
+        add_triangle(g, i % 7, random_vector(1000 * size), random_vector(1000 * size),
+                     random_vector(1000 * size));
+        break;
+    default:
+        add_triangle(g, i % 7, at, a, b);
+    }
+}
+
+/* A point worth aiming at: corners, edges, rims, tangents, or nothing in particular. */
+static struct vec3 any_target(const struct geometry *g, double size)
+{
+    if (g->vertices.n >= 3 && below(3) == 0) {
+        const struct vec3 *v = g->vertices.at + 3 * below((uint32_t)g->vertices.n / 3);
+        return vec3_mad(v[0], below(2) ? uniform(0, 1) : 0, vec3_sub(v[1 + below(2)], v[0]));
+    }
+    if (g->spheres.n > 0 && below(3) == 0) {
+        const struct sphere *s = &g->spheres.at[below((uint32_t)g->spheres.n)];
+        return vec3_mad(s->center, s->radius, vec3_normalize(random_vector(1)));
+    }
+    return random_vector(10 * size);
+}
+
+static struct ray any_ray(const struct geometry *g, double size)
+{
+    struct vec3 from = random_vector(size * (below(4) ? 20 : 1e5));
+    struct ray ray = {.origin = from,
+                      .direction = vec3_sub(any_target(g, size), from),
+                      .t_max = below(3) ? RAY_UNBOUNDED : 1,
+                      .from = PRIM_NONE,
+                      .surface = below(8) ? SURFACE_NONE : below(7)};
+    if (below(8) == 0) /* along an axis, or in a plane of two */
+        ray.direction = vec3(below(3) - 1.0, below(3) - 1.0, below(2));
+    if (below(2))
+        ray.direction = vec3_scale(ray.direction, uniform(1e-3, 1e3) / size);
+    return ray;
+}
+
+static bool same_hit(const struct hit *a, const struct hit *b)
+{
+    return a->prim == b->prim && (a->prim == PRIM_NONE || (a->t == b->t && a->part == b->part));
+}
+
+static void compare(const struct accel *tree, const struct accel *brute, const struct ray *ray,
+                    struct hit *hit)
+{
+    struct hit other;
+    bool found = accel_closest(tree, ray, hit);
+    ck_assert_int_eq(found, accel_closest(brute, ray, &other));
+    ck_assert_msg(same_hit(hit, &other), "prim %u at %a, not %u at %a", hit->prim, hit->t,
+                  other.prim, other.t);
+    ck_assert_int_eq(found, accel_any(tree, ray));
+    ck_assert_int_eq(found, accel_any(brute, ray));
+}
+
+START_TEST(tree_agrees_with_brute_force)
+{
+    double size = pow(10, _i % 5 * 4 - 8);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40;
+    for (uint32_t i = 0, n = 1 + below(120); i < n; i++)
+        add_any(&g, i, size);
+    struct accel tree, brute;
+    accel_build(&tree, &g, false);
+    accel_build(&brute, &g, true);
+    ck_assert(brute.nodes == NULL);
+    for (int i = 0; i < TRIES(12000); i++) {
+        struct ray ray = any_ray(&g, size);
+        struct hit hit;
+        compare(&tree, &brute, &ray, &hit);
+        if (hit.prim == PRIM_NONE)
+            continue;
+        struct vec3 normal, p = geometry_hit_point(&g, &ray, &hit, &normal);
+        struct ray spawned = any_ray(&g, size);
+        spawned.direction = below(2) ? vec3_sub(any_target(&g, size), p) : random_vector(1);
+        spawned.origin = p;
+        spawned.from = hit.prim;
+        spawned.spawned = true;
+        compare(&tree, &brute, &spawned, &hit);
+    }
+    accel_free(&tree);
+    accel_free(&brute);
+    geometry_free(&g);
+}
+END_TEST
+
+/* Endless rays from a box into a cone of directions. */
+START_TEST(bundles_see_what_single_rays_see)
+{
+    double size = pow(10, _i % 5 * 4 - 8);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(1) << 30;
+    for (uint32_t i = 0, n = 1 + below(60); i < n; i++)
+        add_any(&g, i, size);
+    struct accel tree;
+    accel_build(&tree, &g, false);
+    uint32_t usable = 0;
+    for (int round = 0; round < TRIES(800); round++) {
+        struct ray rays[BUNDLE_LIMIT];
+        struct hit hits[BUNDLE_LIMIT], alone;
+        struct box origins = box_empty(), directions = box_empty();
+        struct vec3 from = random_vector(20 * size), to = any_target(&g, size);
+        double spread = below(2) ? 0 : size * uniform(0, 1);
+        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+            rays[i] = any_ray(&g, size);
+            rays[i].surface = SURFACE_NONE;
+            rays[i].t_max = RAY_UNBOUNDED;
+            rays[i].origin = vec3_add(from, random_vector(spread));
+            rays[i].direction =
+                vec3_normalize(vec3_sub(vec3_add(to, random_vector(size)), rays[i].origin));
+            origins = box_add(origins, rays[i].origin);
+            directions = box_add(directions, rays[i].direction);
+        }
+        struct target_list list;
+        struct shaft shaft = shaft_of_rays(&tree, origins, directions);
+        shaft_list(&tree, &shaft, &list);
+        if (list.usable)
+            shaft_sort(&tree, &shaft, &list);
+        usable += list.usable;
+        struct bundle bundle = {rays, BUNDLE_LIMIT, spread == 0, &list};
+        bundle_closest(&tree, &bundle, hits);
+        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+            accel_closest(&tree, &rays[i], &alone);
+            ck_assert(same_hit(&hits[i], &alone));
+        }
+    }
+    ck_assert_uint_gt(usable, TRIES(400));
+    accel_free(&tree);
+    geometry_free(&g);
+}
+END_TEST
+
+/* Shadow rays from points of a surface to points of a box, and somewhat beyond. */
+START_TEST(shafts_hold_all_shadow_rays)
+{
+    double size = pow(10, _i % 5 * 4 - 8);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(2) << 30;
+    for (uint32_t i = 0, n = 1 + below(60); i < n; i++)
+        add_any(&g, i, size);
+    struct accel tree;
+    accel_build(&tree, &g, false);
+    for (int round = 0; round < TRIES(800); round++) {
+        struct ray rays[BUNDLE_LIMIT];
+        bool blocked[BUNDLE_LIMIT];
+        struct box p = box_empty(), q = box_empty();
+        struct vec3 from = random_vector(20 * size), near = any_target(&g, size);
+        struct vec3 lamp = random_vector(15 * size);
+        double t_max = below(2) ? 1 : uniform(1, 3);
+        uint32_t n = 0;
+        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+            struct ray ray = any_ray(&g, size);
+            struct hit hit;
+            struct vec3 normal;
+            ray.surface = SURFACE_NONE;
+            ray.direction = vec3_sub(vec3_add(near, random_vector(0.5 * size)), from);
+            ray.origin = from;
+            if (!accel_closest(&tree, &ray, &hit))
+                continue;
+            struct vec3 to = vec3_add(lamp, random_vector(size));
+            rays[n] = (struct ray){.origin = geometry_hit_point(&g, &ray, &hit, &normal),
+                                   .t_max = uniform(0.5, t_max),
+                                   .from = hit.prim,
+                                   .surface = SURFACE_NONE,
+                                   .spawned = true};
+            rays[n].direction = vec3_sub(to, rays[n].origin);
+            p = box_add(p, rays[n++].origin);
+            q = box_add(q, to);
+        }
+        if (n == 0)
+            continue;
+        struct target_list list;
+        struct shaft shaft = shaft_between(&tree, p, q, t_max);
+        shaft_list(&tree, &shaft, &list);
+        struct bundle bundle = {rays, n, n == 1, &list};
+        bundle_any(&tree, &bundle, blocked);
+        for (uint32_t i = 0; i < n; i++)
+            ck_assert_int_eq(blocked[i], accel_any(&tree, &rays[i]));
+    }
+    accel_free(&tree);
+    geometry_free(&g);
+}
+END_TEST
+
+START_TEST(equal_triangles_end)
+{
+    struct geometry g = {0};
+    for (int k = 0; k < 3; k++)
+        geometry_add_vertex(&g, vec3(k == 1, k == 2, 0));
+    for (int i = 0; i < 100000; i++)
+        geometry_add_triangle(&g, 0, 0, 1, 2);
+    struct accel tree;
+    accel_build(&tree, &g, false);
+    struct ray ray = {.origin = vec3(0.25, 0.25, 1),
+                      .direction = vec3(0, 0, -1),
+                      .t_max = 10,
+                      .from = PRIM_NONE,
+                      .surface = SURFACE_NONE};
+    struct hit hit;
+    ck_assert(accel_closest(&tree, &ray, &hit));
+    ck_assert_uint_eq(hit.prim, 0);
+    ck_assert(hit.t == 1);
+    accel_free(&tree);
+    geometry_free(&g);
+}
+END_TEST
+
+START_TEST(nothing_is_hit_in_an_empty_geometry)
+{
+    struct geometry g = {0};
+    struct accel tree;
+    accel_build(&tree, &g, false);
+    struct ray ray = {
+        .direction = vec3(0, 0, -1), .t_max = 10, .from = PRIM_NONE, .surface = SURFACE_NONE};
+    struct hit hit;
+    ck_assert(!accel_closest(&tree, &ray, &hit));
+    ck_assert(!accel_any(&tree, &ray));
+    accel_free(&tree);
+}
+END_TEST
+
+/* A closed ball of 200 x 200 faces far from the origin. */
+static void add_far_ball(struct geometry *g)
+{
+    enum { N = 200 };
+    const double turn = 3.14159265358979323846 / N;
+    for (int j = 0; j <= N; j++)
+        for (int i = 0; i < N; i++)
+            geometry_add_vertex(g, vec3(148376 + 2 * sin(j * turn) * cos(2 * i * turn),
+                                        1234 + 2 * cos(j * turn),
+                                        -223423 + 2 * sin(j * turn) * sin(2 * i * turn)));
+    for (uint32_t i = 0; i < N; i++) /* one point each, whatever sin(pi) is */
+        g->vertices.at[i] = vec3(148376, 1236, -223423),
+        g->vertices.at[N * N + i] = vec3(148376, 1232, -223423);
+    for (uint32_t j = 0; j < N; j++) {
+        for (uint32_t i = 0; i < N; i++) {
+            uint32_t a = j * N + i, b = j * N + (i + 1) % N;
+            geometry_add_triangle(g, 0, a, b, b + N);
+            geometry_add_triangle(g, 0, a, b + N, a + N);
+        }
+    }
+}
+
+START_TEST(closed_meshes_are_tight)
+{
+    struct geometry g = {0};
+    add_far_ball(&g);
+    struct accel tree;
+    accel_build(&tree, &g, false);
+    for (int i = 0; i < TRIES(300000); i++) {
+        const struct vec3 *v = g.vertices.at + below((uint32_t)g.vertices.n - 201);
+        struct vec3 to = i % 3 == 0 ? v[0] : vec3_mad(v[0], uniform(0, 1), vec3_sub(v[1], v[0]));
+        struct ray ray = {.origin = vec3_add(vec3(148376, 1234, -223423), random_vector(0.9)),
+                          .t_max = RAY_UNBOUNDED,
+                          .from = PRIM_NONE,
+                          .surface = SURFACE_NONE};
+        ray.direction = i % 3 == 2 ? random_vector(1) : vec3_sub(to, ray.origin);
+        struct hit hit;
+        ck_assert(accel_closest(&tree, &ray, &hit));
+    }
+    accel_free(&tree);
+    geometry_free(&g);
+}
+END_TEST
+
+Suite *bvh_suite(void)
+{
+    Suite *s = suite_create("bvh");
+    TCase *c = tcase_create("bvh");
+    tcase_set_timeout(c, 120);
+    tcase_add_loop_test(c, tree_agrees_with_brute_force, 0, 50);
+    tcase_add_loop_test(c, bundles_see_what_single_rays_see, 0, 10);
+    tcase_add_loop_test(c, shafts_hold_all_shadow_rays, 0, 10);
+    tcase_add_test(c, equal_triangles_end);
+    tcase_add_test(c, nothing_is_hit_in_an_empty_geometry);
+    tcase_add_test(c, closed_meshes_are_tight);
+    suite_add_tcase(s, c);
+    return s;
+}

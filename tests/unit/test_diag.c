@@ -1,0 +1,191 @@
+/* Findings as text and in order. */
+#include "config.h"
+
+#include "diag/diag.h"
+
+#include "load.h"
+#include "unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The findings as they are printed; the caller frees. */
+static char *printed(struct load *l, enum diag_format format, enum diag_level least)
+{
+    char *text;
+    size_t n;
+    FILE *out = open_memstream(&text, &n);
+    struct diag_print_options o = {.format = format, .least = least};
+    diag_print(&l->diag, &o, out);
+    fclose(out);
+    return text;
+}
+
+static struct span span_in(const struct load *l, uint32_t begin, uint32_t end)
+{
+    return (struct span){l->source->base + begin, l->source->base + end};
+}
+
+#define X50 "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
+#define HEAD(place) "it:" place ": error: text [E010-syntax]\n"
+
+static const struct {
+    const char *text;
+    uint32_t begin, end;
+    const char *fix, *expected;
+} renderings[] = {
+    {"abc def\n", 4, 7, NULL, HEAD("1:5") "    1 | abc def\n      |     ^~~\n"},
+    {"abc def\n", 4, 4, NULL, HEAD("1:5") "    1 | abc def\n      |     ^\n"},
+    {"abc", 3, 3, NULL, HEAD("1:4") "    1 | abc\n      |    ^\n"},
+    {"abc\n", 4, 4, NULL, HEAD("2:1") "    2 | \n      | ^\n"},
+    {"", 0, 0, NULL, HEAD("1:1") "    1 | \n      | ^\n"},
+    {"abc\ndef", 1, 6, NULL, HEAD("1:2") "    1 | abc\n      |  ^~\n"}, /* to the line's end */
+    {"\ta\tb\n", 3, 4, NULL,
+     HEAD("1:4") "    1 |         a       b\n      |                 ^\n"},
+    {"a\tb\n", 0, 3, NULL, HEAD("1:1") "    1 | a       b\n      | ^~~~~~~~~\n"},
+    {"\xc3\xa9\xe2\x82\xac x", 6, 7, NULL,
+     HEAD("1:4") "    1 | \xc3\xa9\xe2\x82\xac x\n      |    ^\n"},
+    {"\xc3\xa9\xe2\x82\xac x", 0, 5, NULL,
+     HEAD("1:1") "    1 | \xc3\xa9\xe2\x82\xac x\n      | ^~\n"},
+    {"\x1b[1m\x07\xc2\x9b", 0, 1, NULL, HEAD("1:1") "    1 | ?[1m??\n      | ^\n"},
+    {"a\x80\xff" "b", 3, 4, NULL, HEAD("1:3") "    1 | a??b\n      |    ^\n"},
+    {"crlf\r\nb", 2, 4, NULL, HEAD("1:3") "    1 | crlf\n      |   ^~\n"},
+    {"abc def\n", 4, 7, "ghi", HEAD("1:5") "    1 | abc def\n      |     ^~~\n      |     ghi\n"},
+    {"abc\n", 0, 0, "one\ntwo", HEAD("1:1") "    1 | abc\n      | ^\n      | one\n"},
+    {X50 X50 X50 " y " X50 X50, 151, 152, "z",
+     HEAD("1:152") "    1 | ..." X50 "xxxxxxxxx y xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...\n"
+                   "      |                                                                ^\n"
+                   "      |                                                                z\n"},
+};
+
+START_TEST(text_of_finding)
+{
+    struct load l;
+    load_text(&l, "it", renderings[_i].text);
+    struct span span = span_in(&l, renderings[_i].begin, renderings[_i].end);
+    struct diag_entry *e = diag_report(&l.diag, DIAG_SYNTAX, span, "text");
+    if (renderings[_i].fix)
+        diag_fix(e, span, DIAG_FIX_SAFE, "%s", renderings[_i].fix);
+    char *text = printed(&l, DIAG_FORMAT_TEXT, DIAG_NOTE);
+    ck_assert_str_eq(text, renderings[_i].expected);
+    free(text);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(labels_notes_and_order)
+{
+    struct load l;
+    load_text(&l, "it", "one\ntwo\nthree\n");
+    struct diag_entry *e = diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 8, 13), "last");
+    diag_label(e, span_in(&l, 0, 3), "first %s", "here");
+    diag_note(e, "a note");
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 4, 7), "second of two");
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 4, 5), "third of two");
+    diag_report(&l.diag, DIAG_MISSING_VERSION, span_in(&l, 0, 0), "a warning");
+    diag_report(&l.diag, DIAG_CANNOT_WRITE, (struct span){0}, "no place");
+    ck_assert_uint_eq(l.diag.errors, 4);
+    ck_assert_uint_eq(l.diag.warnings, 1);
+    ck_assert_int_eq(l.diag.exit, DIAG_EXIT_INPUT);
+    char *text = printed(&l, DIAG_FORMAT_TEXT, DIAG_ERROR);
+    ck_assert_str_eq(text, "wrt: error: no place [E301-cannot-write]\n"
+                           "it:2:1: error: second of two [E010-syntax]\n"
+                           "    2 | two\n      | ^~~\n"
+                           "it:2:1: error: third of two [E010-syntax]\n"
+                           "    2 | two\n      | ^\n"
+                           "it:3:1: error: last [E010-syntax]\n"
+                           "    3 | three\n      | ^~~~~\n"
+                           "it:1:1: note: first here\n"
+                           "    1 | one\n      | ^~~\n"
+                           "note: a note\n");
+    free(text);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(messages_are_tame)
+{
+    static char name[5000];
+    struct load l;
+    memset(name, 'n', sizeof name - 1);
+    load_text(&l, "it", "");
+    const char *m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "'%s' end", name)->message;
+    ck_assert_uint_lt(strlen(m), 700);
+    ck_assert_ptr_nonnull(strstr(m, "..."));
+    ck_assert_str_eq(m + strlen(m) - 5, "' end");
+    m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s", "\x1b]0;\x7f\xc2\x85\xc3\xa9\n")->message;
+    ck_assert_str_eq(m, "?]0;???\xc3\xa9?");
+    for (size_t i = 0; i + 2 < sizeof name; i += 2)
+        memcpy(name + i, "\xc3\xa9", 2);
+    for (int skip = 0; skip < 2; skip++) { /* cut between characters */
+        m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s%s", skip ? "x" : "", name)->message;
+        ck_assert_uint_eq(str_utf8_valid(m, strlen(m) - 1), strlen(m) - 1);
+    }
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(findings_beyond_the_limit)
+{
+    struct load l;
+    load_text(&l, "it", "abc");
+    for (int i = 0; i < DIAG_LIMIT + 500; i++) {
+        struct diag_entry *e = diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "%d", i);
+        diag_label(e, span_in(&l, 0, 1), "label");
+        diag_note(e, "note");
+        diag_fix(e, span_in(&l, 0, 1), DIAG_FIX_SAFE, "fix");
+    }
+    ck_assert_uint_eq(l.diag.entries.n, DIAG_LIMIT);
+    ck_assert_uint_eq(l.diag.errors, DIAG_LIMIT + 500);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(exit_statuses)
+{
+    struct load l;
+    load_text(&l, "it", "");
+    ck_assert_int_eq(l.diag.exit, DIAG_EXIT_OK);
+    diag_report(&l.diag, DIAG_MISSING_VERSION, (struct span){0}, "w");
+    ck_assert_int_eq(l.diag.exit, DIAG_EXIT_OK);
+    diag_report(&l.diag, DIAG_FILE_MISSING, (struct span){0}, "r");
+    ck_assert_int_eq(l.diag.exit, DIAG_EXIT_RESOURCE);
+    diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "i");
+    diag_report(&l.diag, DIAG_FILE_MISSING, (struct span){0}, "r");
+    ck_assert_int_eq(l.diag.exit, DIAG_EXIT_INPUT);
+    load_free(&l);
+}
+END_TEST
+
+/* Codes are unique and say by their first letter and digit what they are. */
+START_TEST(rules)
+{
+    const struct diag_rule *r = &diag_rules[_i];
+    ck_assert_int_eq(r->code[0], r->level == DIAG_ERROR ? 'E' : 'W');
+    ck_assert_uint_eq(strlen(r->code), 4);
+    ck_assert(r->level != DIAG_ERROR || r->exit != DIAG_EXIT_OK);
+    ck_assert_uint_eq(strspn(r->slug, "abcdefghijklmnopqrstuvwxyz-"), strlen(r->slug));
+    ck_assert_uint_gt(strlen(r->summary), 10);
+    for (int i = 0; i < _i; i++) {
+        ck_assert_str_ne(diag_rules[i].code, r->code);
+        ck_assert_str_ne(diag_rules[i].slug, r->slug);
+    }
+}
+END_TEST
+
+Suite *diag_suite(void)
+{
+    Suite *s = suite_create("diag");
+    TCase *t = tcase_create("text");
+    tcase_add_loop_test(t, text_of_finding, 0, COUNT(renderings));
+    tcase_add_test(t, labels_notes_and_order);
+    tcase_add_test(t, messages_are_tame);
+    suite_add_tcase(s, t);
+
+    t = tcase_create("findings");
+    tcase_add_test(t, findings_beyond_the_limit);
+    tcase_add_test(t, exit_statuses);
+    tcase_add_loop_test(t, rules, 0, DIAG_CODES);
+    suite_add_tcase(s, t);
+    return s;
+}
