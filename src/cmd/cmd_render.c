@@ -75,9 +75,9 @@ static const char *output_obstacle(const char *path)
     char *folder = mem_alloc(n + 1, 1);
     memcpy(folder, path, n);
     folder[n] = 0;
-    const char *reason = stat(folder, &st) != 0  ? strerror(errno)
-                         : S_ISDIR(st.st_mode) ? NULL
-                                               : strerror(ENOTDIR);
+    const char *reason = stat(folder, &st) != 0 ? strerror(errno)
+                         : S_ISDIR(st.st_mode)  ? NULL
+                                                : strerror(ENOTDIR);
     free(folder);
     return reason;
 }
@@ -88,8 +88,10 @@ static int check_field_of_view(const struct camera *c, uint32_t width, uint32_t 
     bool same = (uint64_t)width * c->height == (uint64_t)height * c->width;
     if (same || c->yfov * width / height < 90)
         return 0;
-    return usage_error("--res: %u x %u is too wide for the scene's field of view: %.6g degrees times "
-                       "width over height must be below 90", width, height, c->yfov);
+    return usage_error(
+        "--res: %u x %u is too wide for the scene's field of view: %.6g degrees times "
+        "width over height must be below 90",
+        width, height, c->yfov);
 }
 
 /* Size and crop of the picture; 0 or an exit status. */
@@ -144,9 +146,9 @@ static void describe_meshes(const struct run *r)
                     "%zu not manifold), %s\n",
                     m->path, m->mesh->points.n, report.unused_vertices, m->mesh->faces.n,
                     report.degenerate_faces, report.non_manifold_faces,
-                    report.boundary_edges     ? "open"
-                    : report.volume < 0       ? "closed, inside out"
-                                              : "closed");
+                    report.boundary_edges ? "open"
+                    : report.volume < 0   ? "closed, inside out"
+                                          : "closed");
     }
 }
 
@@ -157,7 +159,8 @@ static int load(struct run *r)
     r->stats.parse_s = r->frontend.seconds;
     double start = thread_seconds();
     if (right)
-        right = lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
+        right =
+            lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
     int status = frontend_report(&r->frontend, o, DIAG_WARNING);
     if (right && o->verbose)

@@ -18,7 +18,7 @@
 
 enum diag_level { DIAG_NOTE, DIAG_WARNING, DIAG_ERROR };
 
-/* Exit statuses of the program (cli.md). */
+/* Exit statuses of the program (see wrt.1). */
 enum diag_exit { DIAG_EXIT_OK = 0, DIAG_EXIT_INPUT = 1, DIAG_EXIT_RESOURCE = 3 };
 
 enum diag_code {

@@ -83,8 +83,8 @@ static bool as_points(const struct target *t, const struct value *v)
         return false;
     unsigned want = schema_leaf_count(t->id);
     if (v->n != want) {
-        diag_report(t->e->diag, DIAG_WRONG_COUNT, v->span,
-                    "'%s' takes %u points, but found %u", t->prop->native, want, v->n);
+        diag_report(t->e->diag, DIAG_WRONG_COUNT, v->span, "'%s' takes %u points, but found %u",
+                    t->prop->native, want, v->n);
         t->out->n = 0;
         return false;
     }
@@ -116,8 +116,8 @@ static bool as_file(const struct target *t, const struct value *v)
         return false;
     t->out->string = v->string;
     if (!v->string.n)
-        diag_report(t->e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes a file name, but this is empty",
-                    t->prop->native);
+        diag_report(t->e->diag, DIAG_WRONG_TYPE, v->span,
+                    "'%s' takes a file name, but this is empty", t->prop->native);
     return v->string.n > 0;
 }
 

@@ -85,9 +85,9 @@ static bool read_texture_index(struct eval *e, const struct ast_node *leaf, stru
         out->object = e->out->textures.at[(size_t)x];
         return true;
     }
-    struct diag_entry *entry = diag_report(e->diag, DIAG_TEXTURE_INDEX, leaf->children->span,
-                                           "there is no texture %.*s",
-                                           STR_ARG(leaf->children->text));
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_TEXTURE_INDEX, leaf->children->span, "there is no texture %.*s",
+                    STR_ARG(leaf->children->text));
     if (n)
         diag_note(entry, "the scene's textures are numbered from 0 to %zu", n - 1);
     else
@@ -201,8 +201,7 @@ void eval_leaf(struct eval *e, struct desc_object *o, const struct ast_node *lea
 {
     unsigned part;
     enum schema_prop_id id = object_find_prop(e, o, leaf->name, leaf->name_span, &part);
-    struct desc_prop *p =
-        id != SCHEMA_PROPS ? object_prop(e, o, id, part, leaf->name_span) : NULL;
+    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, part, leaf->name_span) : NULL;
     bool right = p && !report_empty(e, id, leaf) && read_value(e, id, part, leaf, &p->value);
     o->broken |= !right;
     if (!p)

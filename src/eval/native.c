@@ -83,8 +83,7 @@ static void eval_property(struct eval *e, struct desc_object *o, const struct as
     const struct ast_node *value = node->children;
     unsigned leaf;
     enum schema_prop_id id = object_find_prop(e, o, node->name, node->name_span, &leaf);
-    struct desc_prop *p =
-        id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
+    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
     bool fits = false;
     if (p && schema_props[id].type == TYPE_WORD && value->kind == AST_NAME &&
         !map_get(&e->names, value->name)) {

@@ -74,9 +74,9 @@ enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o
     if (id != SCHEMA_PROPS)
         return id;
     const char *kind = o->xml ? schema_kinds[o->kind].xml : schema_kinds[o->kind].native;
-    struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, name_span,
-                                           "unknown %s '%.*s' of %s",
-                                           o->xml ? "element" : "property", STR_ARG(name), kind);
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, name_span, "unknown %s '%.*s' of %s",
+                    o->xml ? "element" : "property", STR_ARG(name), kind);
     diag_did_you_mean(entry, name_span, schema_nearest_prop(o->kind, name, o->xml));
     note_props(entry, o);
     return SCHEMA_PROPS;
@@ -110,15 +110,17 @@ void object_register(struct eval *e, struct desc_object *o)
 
 void try_defined_names(struct eval *e, struct str_nearest *nearest)
 {
-    enum { MOST = 1000 * 1000 }; /* keeps thousands of unknown names among as many from taking minutes */
+    enum {
+        MOST = 1000 * 1000
+    }; /* keeps thousands of unknown names among as many from taking minutes */
     e->names_tried += e->names.capacity;
     for (size_t i = 0; i < e->names.capacity && e->names_tried <= MOST; i++)
         if (e->names.slots[i].value)
             str_nearest_try(nearest, e->names.slots[i].key);
 }
 
-void report_unknown_kind(struct eval *e, enum schema_group group, struct str name,
-                         struct span span, bool xml)
+void report_unknown_kind(struct eval *e, enum schema_group group, struct str name, struct span span,
+                         bool xml)
 {
     struct diag_entry *entry =
         diag_report(e->diag, DIAG_UNKNOWN_KIND, span, "unknown %s %s '%.*s'",

@@ -60,8 +60,8 @@ static struct attributes take_attributes(struct eval *e, const struct ast_node *
         if (a->kind != AST_ATTRIBUTE)
             continue;
         int i = 0;
-        while (i < ATTRIBUTES && !(str_is(a->name, attribute_names[i].name) &&
-                                   (allowed & attribute_names[i].bit)))
+        while (i < ATTRIBUTES &&
+               !(str_is(a->name, attribute_names[i].name) && (allowed & attribute_names[i].bit)))
             i++;
         if (i == ATTRIBUTES) {
             report_attribute(e, a, element, allowed);
@@ -105,8 +105,7 @@ static void eval_inner_element(struct eval *e, struct desc_object *o, const stru
 {
     unsigned leaf;
     enum schema_prop_id id = object_find_prop(e, o, node->name, node->name_span, &leaf);
-    struct desc_prop *p =
-        id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
+    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
     if (!p) {
         o->broken = true;
         return;
@@ -201,8 +200,8 @@ static struct desc_object *eval_material(struct eval *e, const struct ast_node *
         if (b && b->node == node)
             return named_material(e, b);
     }
-    struct attributes a = take_attributes(e, node, "a material",
-                                          ATTRIBUTE_CLASS | ATTRIBUTE_ID | ATTRIBUTE_REF);
+    struct attributes a =
+        take_attributes(e, node, "a material", ATTRIBUTE_CLASS | ATTRIBUTE_ID | ATTRIBUTE_REF);
     return a.ref ? referenced_material(e, node, &a) : new_material(e, node, &a);
 }
 
@@ -290,8 +289,8 @@ static void eval_section(struct eval *e, const struct section *s, const struct a
     }
     if (node->kind == AST_PROPERTY) { /* an element with nothing but text, perhaps none */
         if (node->children->text.n)
-            diag_report(e->diag, DIAG_MISPLACED, node->children->span,
-                        "text cannot stand in '%s'", s->name);
+            diag_report(e->diag, DIAG_MISPLACED, node->children->span, "text cannot stand in '%s'",
+                        s->name);
         return;
     }
     take_attributes(e, node, s->name, 0);
@@ -313,9 +312,9 @@ static const struct section *find_section(struct eval *e, const struct ast_node 
         str_nearest_try(&nearest, str_of(sections[i].name));
     }
     e->out->incomplete = true;
-    struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, node->name_span,
-                                           "unknown element '%.*s' of the scene",
-                                           STR_ARG(node->name));
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, node->name_span,
+                    "unknown element '%.*s' of the scene", STR_ARG(node->name));
     diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
     diag_note(entry, "a scene has: camera lights textures surfaces");
     return NULL;

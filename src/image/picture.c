@@ -134,7 +134,7 @@ void image_free(struct image *i)
     free(i);
 }
 
-/* The original program's rounding (original.md, section 3); the comparison is false for NaN. */
+/* The original program's rounding for 8 bits; the comparison is false for NaN. */
 static uint8_t channel_byte(double c)
 {
     if (!(c > 0))

@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-/* original.md, section 3: direction(u, v) = across (2u - 1) + upwards (2v - 1) + ahead. */
+/* Classic: direction(u, v) = across (2u - 1) + upwards (2v - 1) + ahead. */
 struct lens {
     struct vec3 origin, across, upwards, ahead;
     bool mirrored; /* compatMode 0 */

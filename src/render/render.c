@@ -39,7 +39,7 @@ struct sample {
     double x, y;
 };
 
-/* original.md, section 3: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
+/* The original's rule: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
  * at the pixel's corner, n x n are spread around it.  move_x and move_y jitter it, from 0 to 1. */
 static void place_sample(struct sample *s, double n, double move_x, double move_y)
 {

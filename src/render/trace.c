@@ -67,7 +67,7 @@ static uint32_t surface_crossed(const struct scene *scene, const struct shade_po
     return kind == SURFACE_MESH && !s->inside ? s->surface : SURFACE_NONE;
 }
 
-/* original.md, section 4.  `index` is that of the arriving ray. */
+/* Classic refraction.  `index` is that of the arriving ray. */
 static void add_refraction(struct level *level, const struct scene *scene,
                            const struct shade_point *s, double index, struct vec3 weight)
 {

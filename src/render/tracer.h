@@ -29,6 +29,8 @@ struct finish {
     bool dull;        /* no highlight at all */
     bool black;       /* its highlight is 0 times a power */
     bool whole_power; /* the power of any cosine is a number; false without skips */
+    bool squared;     /* the exponent is whole and small: `power`, multiplied out */
+    unsigned power;
 };
 
 struct tracer {
@@ -58,7 +60,7 @@ struct shade_point {
     struct vec3 diffuse; /* the material's, times its texel */
     uint32_t prim, surface;
     uint32_t ray; /* place in the batch */
-    bool inside;  /* hit from inside, see original.md, section 4, refraction */
+    bool inside;  /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish;
 };
 

@@ -105,17 +105,17 @@ struct scene {
 
 void scene_free(struct scene *s);
 
-/* The sample grid of an area light (original.md, section 4): samples^3 points spanning `box`,
+/* The sample grid of an area light as the original spans it: samples^3 points spanning `box`,
  * corners included, merged where equal and marked where they lie on or in l->object, which must be
  * complete.  samples >= 2. */
 void light_sample_grid(struct light *l, struct box box, uint32_t samples);
 
-/* Texel fetch at (u, v), see original.md section 5: row 0 of the coordinates is the bottom.  Any u
+/* Texel fetch at (u, v), by the original's rule: row 0 of the coordinates is the bottom.  Any u
  * and v will do; what is not a finite number fetches texel 0. */
 struct vec3 texture_fetch(const struct texture *t, double u, double v);
 
-/* Texture coordinates of a hit with unit sphere/cylinder/triangle parametrisation (original.md,
- * section 5); p is the hit point.  Only for surfaces with needs_uv. */
+/* Texture coordinates of a hit with unit sphere/cylinder/triangle parametrisation (surface.c);
+ * p is the hit point.  Only for surfaces with needs_uv. */
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p);
 

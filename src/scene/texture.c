@@ -8,7 +8,7 @@ struct texel_place {
     double rest;
 };
 
-/* original.md, section 5: 1 itself is the last texel's end; elsewhere the coordinate wraps, its
+/* The original's rule: 1 itself is the last texel's end; elsewhere the coordinate wraps, its
  * fraction taken from the distance to 0. */
 static struct texel_place place_on(double u, uint32_t size)
 {

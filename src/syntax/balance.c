@@ -31,9 +31,9 @@ static void label_opening(struct diag_entry *e, const struct open_element *o)
 static void report_unclosed(struct parser *p, struct span span, struct str closing)
 {
     const struct open_element *top = &p->open.at[p->open.n - 1];
-    struct diag_entry *e = diag_report(p->diag, DIAG_XML_CLOSING_TAG, span,
-                                       "'</%.*s>' comes before '%.*s' is closed", STR_ARG(closing),
-                                       STR_ARG(top->name));
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_XML_CLOSING_TAG, span, "'</%.*s>' comes before '%.*s' is closed",
+                    STR_ARG(closing), STR_ARG(top->name));
     label_opening(e, top);
     struct span before = {span.begin, span.begin};
     diag_fix(e, before, DIAG_FIX_MAYBE, "</%.*s>", STR_ARG(top->name));
@@ -42,10 +42,9 @@ static void report_unclosed(struct parser *p, struct span span, struct str closi
 static void report_wrong_name(struct parser *p, struct span span, struct str closing)
 {
     const struct open_element *top = &p->open.at[p->open.n - 1];
-    struct diag_entry *e =
-        diag_report(p->diag, DIAG_XML_CLOSING_TAG, span,
-                    "'</%.*s>' closes nothing; the element to close is '%.*s'", STR_ARG(closing),
-                    STR_ARG(top->name));
+    struct diag_entry *e = diag_report(p->diag, DIAG_XML_CLOSING_TAG, span,
+                                       "'</%.*s>' closes nothing; the element to close is '%.*s'",
+                                       STR_ARG(closing), STR_ARG(top->name));
     label_opening(e, top);
     diag_fix(e, span, DIAG_FIX_MAYBE, "</%.*s>", STR_ARG(top->name));
 }

@@ -258,7 +258,8 @@ struct str xml_reference(struct parser *p, struct str name, struct span span)
 /* Bytes of the reference at `at`, from `&` to `;`, as the scanner takes one; 0: none. */
 static size_t reference_length(const char *at, const char *end)
 {
-    static const char letters[] = "#ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+    static const char letters[] =
+        "#ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
     const char *q = at + 1;
     while (q < end && memchr(letters, *q, sizeof letters - 1))
         q++;

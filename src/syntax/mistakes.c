@@ -67,7 +67,7 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
     bool something_else = n && strcmp(shown[0], "end of file") != 0;
     struct span place = something_else || at_end ? place_of_error(p, span) : span;
     struct diag_entry *e =
-        n        ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
+        n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
     if (is_reserved(found))
@@ -115,8 +115,7 @@ void xml_declaration(struct parser *p, struct span span)
 
 void xml_stray_less(struct parser *p, struct span span)
 {
-    struct diag_entry *e =
-        diag_report(p->diag, DIAG_SYNTAX, span, "'<' begins no tag here");
+    struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, span, "'<' begins no tag here");
     diag_fix(e, span, DIAG_FIX_MAYBE, "&lt;");
 }
 

@@ -17,8 +17,7 @@ static bool open_scanner(struct parser *p, bool xml)
     size_t n = (size_t)p->source->n + 2;
     if (xml)
         return xml_lex_init_extra(p, &p->scanner) == 0 && xml__scan_buffer(text, n, p->scanner);
-    return native_lex_init_extra(p, &p->scanner) == 0 &&
-           native__scan_buffer(text, n, p->scanner);
+    return native_lex_init_extra(p, &p->scanner) == 0 && native__scan_buffer(text, n, p->scanner);
 }
 
 static void close_scanner(struct parser *p, bool xml)
@@ -27,8 +26,7 @@ static void close_scanner(struct parser *p, bool xml)
     (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
 }
 
-static void run(const struct source *source, int start_token, struct ast *out,
-                struct diag *diag)
+static void run(const struct source *source, int start_token, struct ast *out, struct diag *diag)
 {
     struct span start = {source->base, source->base};
     struct parser p = {.ast = out,
@@ -59,8 +57,7 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
     return diag->errors == errors;
 }
 
-void syntax_parse_value(const struct srcmap *sources, const struct source *source,
-                        struct ast *out)
+void syntax_parse_value(const struct srcmap *sources, const struct source *source, struct ast *out)
 {
     struct diag silent;
     diag_init(&silent, sources);

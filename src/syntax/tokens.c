@@ -96,7 +96,8 @@ int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p)
     p->previous = p->now;
     p->now = *span;
     if (p->ast->nodes > NODE_LIMIT)
-        parser_stop(p, DIAG_SCENE_TOO_LARGE, *span,
-                    "the text has more elements or values than can be held, so the rest is not read");
+        parser_stop(
+            p, DIAG_SCENE_TOO_LARGE, *span,
+            "the text has more elements or values than can be held, so the rest is not read");
     return p->stopped ? TOKEN_END : token;
 }

@@ -47,8 +47,8 @@ static void check_required(const struct desc_object *o, struct diag *diag)
         if (!schema_has(o->kind, id) || !schema_props[id].required || find_prop(o, id))
             continue;
         struct str name = prop_name(o, id);
-        struct diag_entry *e = diag_report(diag, DIAG_MISSING_PROPERTY, o->span,
-                                           "%s has no '%.*s'", kind_name(o), STR_ARG(name));
+        struct diag_entry *e = diag_report(diag, DIAG_MISSING_PROPERTY, o->span, "%s has no '%.*s'",
+                                           kind_name(o), STR_ARG(name));
         diag_note(e, "'%.*s': %s", STR_ARG(name), schema_props[id].doc);
     }
 }
@@ -130,7 +130,7 @@ static double sine_between(struct vec3 a, struct vec3 b)
     return vec3_length(vec3_cross(vec3_normalize(a), vec3_normalize(b)));
 }
 
-/* Up counts as parallel to the view below this sine (lint.md). */
+/* Up counts as parallel to the view below this sine. */
 #define PARALLEL_SINE 1e-9
 
 static void check_camera(const struct desc_object *o, struct diag *diag)
@@ -153,10 +153,10 @@ static void check_camera(const struct desc_object *o, struct diag *diag)
                     "a picture has at most %d pixels in all", IMAGE_PIXEL_LIMIT);
     double half = desc_number(o, PROP_YFOV) * size.x / size.y;
     if (!(half < 90)) {
-        struct diag_entry *e = diag_report(
-            diag, DIAG_OUT_OF_RANGE, value_span(o, PROP_YFOV),
-            "'%.*s' times width over height must be below 90 degrees, but is %.6g",
-            STR_ARG(prop_name(o, PROP_YFOV)), half);
+        struct diag_entry *e =
+            diag_report(diag, DIAG_OUT_OF_RANGE, value_span(o, PROP_YFOV),
+                        "'%.*s' times width over height must be below 90 degrees, but is %.6g",
+                        STR_ARG(prop_name(o, PROP_YFOV)), half);
         diag_note(e, "classic takes that product as half the horizontal field of view");
     }
 }
@@ -164,10 +164,9 @@ static void check_camera(const struct desc_object *o, struct diag *diag)
 static void report_conflict(const struct desc_object *o, enum schema_prop_id one,
                             enum schema_prop_id other, struct diag *diag)
 {
-    struct diag_entry *e =
-        diag_report(diag, DIAG_CONFLICT, name_span(o, other),
-                    "'%.*s' and '%.*s' cannot be given together", STR_ARG(prop_name(o, one)),
-                    STR_ARG(prop_name(o, other)));
+    struct diag_entry *e = diag_report(diag, DIAG_CONFLICT, name_span(o, other),
+                                       "'%.*s' and '%.*s' cannot be given together",
+                                       STR_ARG(prop_name(o, one)), STR_ARG(prop_name(o, other)));
     diag_label(e, name_span(o, one), "'%.*s' is given here", STR_ARG(prop_name(o, one)));
 }
 
@@ -242,9 +241,9 @@ static void check_uvs(const struct desc_object *o, struct diag *diag)
     const struct desc_prop *why = map ? map : texture;
     if (!why)
         return;
-    struct diag_entry *e = diag_report(diag, DIAG_MISSING_UV, o->span,
-                                       "%s has %s but no texture coordinates", kind_name(o),
-                                       map ? "a normal map" : "a texture");
+    struct diag_entry *e =
+        diag_report(diag, DIAG_MISSING_UV, o->span, "%s has %s but no texture coordinates",
+                    kind_name(o), map ? "a normal map" : "a texture");
     diag_label(e, why->name_span, "%s is given here", map ? "the normal map" : "the texture");
     if (o->kind == KIND_MESH)
         diag_note(e, "give '%.*s', a list of three pairs a face", STR_ARG(prop_name(o, uvs)));

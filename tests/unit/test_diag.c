@@ -40,15 +40,16 @@ static const struct {
     {"abc\n", 4, 4, NULL, HEAD("2:1") "    2 | \n      | ^\n"},
     {"", 0, 0, NULL, HEAD("1:1") "    1 | \n      | ^\n"},
     {"abc\ndef", 1, 6, NULL, HEAD("1:2") "    1 | abc\n      |  ^~\n"}, /* to the line's end */
-    {"\ta\tb\n", 3, 4, NULL,
-     HEAD("1:4") "    1 |         a       b\n      |                 ^\n"},
+    {"\ta\tb\n", 3, 4, NULL, HEAD("1:4") "    1 |         a       b\n      |                 ^\n"},
     {"a\tb\n", 0, 3, NULL, HEAD("1:1") "    1 | a       b\n      | ^~~~~~~~~\n"},
     {"\xc3\xa9\xe2\x82\xac x", 6, 7, NULL,
      HEAD("1:4") "    1 | \xc3\xa9\xe2\x82\xac x\n      |    ^\n"},
     {"\xc3\xa9\xe2\x82\xac x", 0, 5, NULL,
      HEAD("1:1") "    1 | \xc3\xa9\xe2\x82\xac x\n      | ^~\n"},
     {"\x1b[1m\x07\xc2\x9b", 0, 1, NULL, HEAD("1:1") "    1 | ?[1m??\n      | ^\n"},
-    {"a\x80\xff" "b", 3, 4, NULL, HEAD("1:3") "    1 | a??b\n      |    ^\n"},
+    {"a\x80\xff"
+     "b",
+     3, 4, NULL, HEAD("1:3") "    1 | a??b\n      |    ^\n"},
     {"crlf\r\nb", 2, 4, NULL, HEAD("1:3") "    1 | crlf\n      |   ^~\n"},
     {"abc def\n", 4, 7, "ghi", HEAD("1:5") "    1 | abc def\n      |     ^~~\n      |     ghi\n"},
     {"abc\n", 0, 0, "one\ntwo", HEAD("1:1") "    1 | abc\n      | ^\n      | one\n"},
@@ -113,12 +114,14 @@ START_TEST(messages_are_tame)
     ck_assert_uint_lt(strlen(m), 700);
     ck_assert_ptr_nonnull(strstr(m, "..."));
     ck_assert_str_eq(m + strlen(m) - 5, "' end");
-    m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s", "\x1b]0;\x7f\xc2\x85\xc3\xa9\n")->message;
+    m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s", "\x1b]0;\x7f\xc2\x85\xc3\xa9\n")
+            ->message;
     ck_assert_str_eq(m, "?]0;???\xc3\xa9?");
     for (size_t i = 0; i + 2 < sizeof name; i += 2)
         memcpy(name + i, "\xc3\xa9", 2);
     for (int skip = 0; skip < 2; skip++) { /* cut between characters */
-        m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s%s", skip ? "x" : "", name)->message;
+        m = diag_report(&l.diag, DIAG_SYNTAX, (struct span){0}, "%s%s", skip ? "x" : "", name)
+                ->message;
         ck_assert_uint_eq(str_utf8_valid(m, strlen(m) - 1), strlen(m) - 1);
     }
     load_free(&l);

@@ -6,10 +6,10 @@
 
 #include <stdio.h>
 
-#define XML_CAMERA                                                                                 \
-    "<camera><origin>0 0 1</origin><z>0 0 1</z><y>0 1 0</y><yfov>20</yfov>"                        \
+#define XML_CAMERA                                                          \
+    "<camera><origin>0 0 1</origin><z>0 0 1</z><y>0 1 0</y><yfov>20</yfov>" \
     "<xResolution>8</xResolution><yResolution>6</yResolution></camera>"
-#define CAMERA                                                                                     \
+#define CAMERA \
     "camera { eye: (0, 0, 1)  back: (0, 0, 1)  up: (0, 1, 0)  yfov: 20  resolution: (8, 6) }\n"
 #define NATIVE "wrt 1\nmodel classic\n" CAMERA
 
@@ -36,11 +36,18 @@ static const struct row {
     {PROP_FLIP_NORMALS, KIND_MESH, "<invNormal>1</invNormal>", "flip_normals: true", {1}},
     {PROP_LIGHT_SAMPLES, KIND_AREA_LIGHT, "<nsamples>5</nsamples>", "samples: 5", {5}},
     {PROP_HEIGHT, KIND_CYLINDER, "<height>-3</height>", "height: -3", {-3}},
-    {PROP_INTENSITY, KIND_POINT_LIGHT, "<intensity>1 2 3</intensity>", "intensity: (1, 2, 3)", {1, 2, 3}},
+    {PROP_INTENSITY,
+     KIND_POINT_LIGHT,
+     "<intensity>1 2 3</intensity>",
+     "intensity: (1, 2, 3)",
+     {1, 2, 3}},
     {PROP_YFOV, KIND_CAMERA, "<yfov>45</yfov>", "yfov: 45deg", {45}},
     {PROP_YFOV, KIND_CAMERA, "<yfov>57.29577951308232</yfov>", "yfov: 1rad", {57.29577951308232}},
-    {PROP_RESOLUTION, KIND_CAMERA, "<yResolution>7</yResolution><xResolution>9</xResolution>",
-     "resolution: (9, 7)", {9, 7}},
+    {PROP_RESOLUTION,
+     KIND_CAMERA,
+     "<yResolution>7</yResolution><xResolution>9</xResolution>",
+     "resolution: (9, 7)",
+     {9, 7}},
     {PROP_COMPAT, KIND_CAMERA, "<compatMode>0</compatMode>", "compat: false", {0}},
 };
 
@@ -56,8 +63,8 @@ static void wrap(char *out, size_t room, const struct row *r, bool xml)
                              "</material></s></surfaces>"}};
     bool classed = k->group != SCHEMA_CAMERA;
     if (xml)
-        snprintf(out, room, "<scene>%s%s%s%s%s</scene>", around[k->group][0],
-                 classed ? k->xml : "", classed ? "'>" : "", r->xml, around[k->group][1]);
+        snprintf(out, room, "<scene>%s%s%s%s%s</scene>", around[k->group][0], classed ? k->xml : "",
+                 classed ? "'>" : "", r->xml, around[k->group][1]);
     else
         snprintf(out, room, "wrt 1 model classic %s%s { %s }",
                  k->group == SCHEMA_MATERIAL ? "material m = " : "", k->native, r->native);
@@ -91,8 +98,8 @@ START_TEST(value_in_both_formats)
         ck_assert_ptr_nonnull(v);
         unsigned n = schema_props[r->prop].type == TYPE_SIZE ? 2 : 3;
         for (unsigned i = 0; i < n; i++)
-            ck_assert_msg(v->number[i] == r->number[i], "%s: %.17g is not %.17g", text, v->number[i],
-                          r->number[i]);
+            ck_assert_msg(v->number[i] == r->number[i], "%s: %.17g is not %.17g", text,
+                          v->number[i], r->number[i]);
         load_free(&l);
     }
 }
@@ -103,7 +110,9 @@ static const char *const point_texts[2] = {
     " material: lambert { diffuse: 1 } } light area { shape: quad  falloff: inverse_square }",
     "<scene><surfaces><s class='Quad'><v3>0 0 9</v3><v0>1 2 3</v0><v1>4 5 6</v1><v2>7 8 0</v2>"
     "<material class='Lambert'><diffuse>1 1 1</diffuse></material></s></surfaces><lights>"
-    "<l class='AreaLight'><shape>quaD</shape><attenuation>Inverse-Square</attenuation></l></lights></scene>"};
+    "<l "
+    "class='AreaLight'><shape>quaD</shape><attenuation>Inverse-Square</attenuation></l></lights></"
+    "scene>"};
 
 START_TEST(points_and_words_in_both_formats)
 {
@@ -125,13 +134,12 @@ END_TEST
 START_TEST(derived_objects)
 {
     struct load l;
-    ck_assert_msg(
-        load_validate(&l, NATIVE
-                      "material a = phong { diffuse: 1  specular: 0.5  exponent: 4 }\n"
-                      "material b = a { exponent: 5 }\nmaterial c = b { diffuse: 0 }\n"
-                      "sphere { center: 0  radius: 1  material: c { specular: 2 } }\n"
-                      "sphere { center: 0  radius: 1  material: a }\n"),
-        "%s", load_first(&l));
+    ck_assert_msg(load_validate(&l, NATIVE
+                                "material a = phong { diffuse: 1  specular: 0.5  exponent: 4 }\n"
+                                "material b = a { exponent: 5 }\nmaterial c = b { diffuse: 0 }\n"
+                                "sphere { center: 0  radius: 1  material: c { specular: 2 } }\n"
+                                "sphere { center: 0  radius: 1  material: a }\n"),
+                  "%s", load_first(&l));
     const struct desc_object *m = desc_get(l.desc.surfaces.at[0], PROP_MATERIAL)->object;
     ck_assert_int_eq(m->kind, KIND_PHONG);
     ck_assert_double_eq(desc_number(m, PROP_EXPONENT), 5);
@@ -148,11 +156,14 @@ END_TEST
 START_TEST(shared_material_is_one_object)
 {
     struct load l;
-    ck_assert_msg(load_validate(&l, "<scene>" XML_CAMERA "<surfaces>"
-                                    "<s class='Sphere'><material ref='m'/><position>0 0 0</position><radius>1</radius></s>"
-                                    "<s class='Sphere'><material id='m' class='Lambert'><diffuse>1 1 1</diffuse></material>"
-                                    "<position>0 0 0</position><radius>1</radius></s></surfaces></scene>"),
-                  "%s", load_first(&l));
+    ck_assert_msg(
+        load_validate(
+            &l,
+            "<scene>" XML_CAMERA "<surfaces>"
+            "<s class='Sphere'><material ref='m'/><position>0 0 0</position><radius>1</radius></s>"
+            "<s class='Sphere'><material id='m' class='Lambert'><diffuse>1 1 1</diffuse></material>"
+            "<position>0 0 0</position><radius>1</radius></s></surfaces></scene>"),
+        "%s", load_first(&l));
     ck_assert_uint_eq(l.desc.materials.n, 1);
     ck_assert_ptr_eq(desc_get(l.desc.surfaces.at[0], PROP_MATERIAL)->object,
                      desc_get(l.desc.surfaces.at[1], PROP_MATERIAL)->object);
@@ -207,7 +218,8 @@ static const struct {
     {"sphere { center: 0  radius: 1" MATERIAL "  light point { } }", "E108:light|"},
     {"quad { vertices: [0, 0, 0, 0]" MATERIAL " }", "E109:0|"},
     {"triangle { vertices: [(0,0), (1,0), (0,1)]  material: lambert { diffuse: 1"
-     "  texture: image { file: \"a\" } } }", "E116:triangle|"},
+     "  texture: image { file: \"a\" } } }",
+     "E116:triangle|"},
     {"model classic", "E107:classic|"},
     {"light point { falloff: linear }", "E114:linear|"},
     {"light point { falloff: 1 }", "E109:1|"},

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#define NATIVE                                                                                     \
-    "wrt 1\nmodel classic\n"                                                                       \
+#define NATIVE               \
+    "wrt 1\nmodel classic\n" \
     "camera { eye: (0, 0, 1)  back: (0, 0, 1)  up: (0, 1, 0)  yfov: 20  resolution: (8, 6) }\n"
 #define WHITE "material: lambert { diffuse: 1 }"
 
@@ -70,15 +70,16 @@ static const struct scene *lower(struct load *l, const char *body)
 
 static void check_vec3(struct vec3 v, double x, double y, double z)
 {
-    ck_assert_msg(v.x == x && v.y == y && v.z == z, "(%.17g %.17g %.17g) is not (%.17g %.17g %.17g)",
-                  v.x, v.y, v.z, x, y, z);
+    ck_assert_msg(v.x == x && v.y == y && v.z == z,
+                  "(%.17g %.17g %.17g) is not (%.17g %.17g %.17g)", v.x, v.y, v.z, x, y, z);
 }
 
 START_TEST(metal_is_tinted)
 {
     struct load l;
-    const struct scene *s = lower(&l, "sphere { center: 0  radius: 1  material: metal { diffuse: (0.5, 0.25, 1)"
-                                      "  specular: (1, 2, 4)  exponent: 3  reflection: (0.5, 9, 9) } }");
+    const struct scene *s =
+        lower(&l, "sphere { center: 0  radius: 1  material: metal { diffuse: (0.5, 0.25, 1)"
+                  "  specular: (1, 2, 4)  exponent: 3  reflection: (0.5, 9, 9) } }");
     const struct material *m = &s->materials.at[0];
     ck_assert_int_eq(m->kind, MATERIAL_METAL);
     check_vec3(m->diffuse, 0.5, 0.25, 1);
@@ -91,8 +92,9 @@ END_TEST
 START_TEST(other_materials_are_not)
 {
     struct load l;
-    const struct scene *s = lower(&l, "sphere { center: 0  radius: 1  material: shiny { diffuse: 0.5"
-                                      "  specular: 1  exponent: 3  reflection: (0.5, 0.6, 0.7) } }");
+    const struct scene *s =
+        lower(&l, "sphere { center: 0  radius: 1  material: shiny { diffuse: 0.5"
+                  "  specular: 1  exponent: 3  reflection: (0.5, 0.6, 0.7) } }");
     check_vec3(s->materials.at[0].specular, 1, 1, 1);
     check_vec3(s->materials.at[0].reflection, 0.5, 0.6, 0.7);
     load_free(&l);
@@ -113,7 +115,8 @@ START_TEST(quad_is_two_triangles)
     for (uint32_t i = 0; i < 6; i++) {
         const struct triangle *t = &s->geometry.triangles.at[i / 3];
         ck_assert_uint_eq(t->vertex[i % 3], corner[i]);
-        ck_assert_double_eq(q->uvs[i].x, 0.1 * (corner[i] + 1) + (corner[i] == 2 ? 0.3 - 0.1 * 3 : 0));
+        ck_assert_double_eq(q->uvs[i].x,
+                            0.1 * (corner[i] + 1) + (corner[i] == 2 ? 0.3 - 0.1 * 3 : 0));
     }
     for (uint32_t i = 0; i < s->geometry.prims.n; i++)
         ck_assert_uint_eq(s->geometry.prims.at[i].surface, i > 0);
@@ -156,11 +159,17 @@ static const struct {
     {"shape: quad  size: 2  position: (1, 2, 3)", {0, 2, 2}, {2, 2, 4}},
     {"object: sphere { center: (1, 2, 3)  radius: 0.5 }", {0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}},
     {"object: triangle { vertices: [(1, 2, 3), (4, 2, 3), (1, 6, 9)] }", {1, 2, 3}, {4, 6, 9}},
-    {"object: quad { vertices: [(1, 2, 3), (4, 2, 3), (4, 6, 3), (1, 6, 3)] }", {1, 2, 3}, {4, 6, 3}},
+    {"object: quad { vertices: [(1, 2, 3), (4, 2, 3), (4, 6, 3), (1, 6, 3)] }",
+     {1, 2, 3},
+     {4, 6, 3}},
     {"object: cylinder { base: (1, 2, 3)  height: 4  radius: 0.5 }", {0.5, 2, 2.5}, {1.5, 6, 3.5}},
     /* with a top: widened by the radius, but by the height along y */
-    {"object: cylinder { base: (1, 2, 3)  top: (1, 2, 7)  radius: 0.5 }", {0.5, 1.5, 2.5}, {1.5, 6, 7.5}},
-    {"object: cylinder { base: (1, 2, 3)  top: (1, 6, 3)  radius: 0.5 }", {0.5, 1.5, 2.5}, {1.5, 10, 3.5}},
+    {"object: cylinder { base: (1, 2, 3)  top: (1, 2, 7)  radius: 0.5 }",
+     {0.5, 1.5, 2.5},
+     {1.5, 6, 7.5}},
+    {"object: cylinder { base: (1, 2, 3)  top: (1, 6, 3)  radius: 0.5 }",
+     {0.5, 1.5, 2.5},
+     {1.5, 10, 3.5}},
     /* a mesh: and the world's origin */
     {"object: mesh { file: \"m.off\"  position: (2, 3, 4)  scale: 2 }", {0, 0, 0}, {4, 5, 6}},
     {"object: mesh { file: \"m.off\"  position: -0.5 }", {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}},
@@ -205,12 +214,13 @@ END_TEST
 START_TEST(unused_things_are_left_out)
 {
     struct load l;
-    const struct scene *s =
-        lower(&l, "texture none = image { file: \"missing.png\" }\n"
-                  "material spare = lambert { diffuse: 1  texture: none }\n"
-                  "sphere { center: 0  radius: 1  " WHITE " }\n"
-                  "mesh { file: \"m.off\"  uv_file: \"missing.txt\"  " WHITE " }\n"
-                  "triangle { vertices: [(0, 0), (1, 0), (0, 1)]  uvs: [(0, 0), (1, 0), (0, 1)]  " WHITE " }");
+    const struct scene *s = lower(
+        &l, "texture none = image { file: \"missing.png\" }\n"
+            "material spare = lambert { diffuse: 1  texture: none }\n"
+            "sphere { center: 0  radius: 1  " WHITE " }\n"
+            "mesh { file: \"m.off\"  uv_file: \"missing.txt\"  " WHITE " }\n"
+            "triangle { vertices: [(0, 0), (1, 0), (0, 1)]  uvs: [(0, 0), (1, 0), (0, 1)]  " WHITE
+            " }");
     ck_assert_uint_eq(s->textures.n, 0);
     ck_assert_uint_eq(s->images.n, 0);
     ck_assert_uint_eq(s->materials.n, 3);
@@ -227,14 +237,14 @@ END_TEST
 START_TEST(files_are_read_once)
 {
     struct load l;
-    const struct scene *s =
-        lower(&l, "texture a = image { file: \"t.png\" }\n"
-                  "texture b = image { file: \"t.png\"  filter: nearest }\n"
-                  "material m = lambert { diffuse: 1  texture: a }\n"
-                  "sphere { center: 0  radius: 1  material: m }\n"
-                  "sphere { center: 1  radius: 1  material: m  normal_map: a }\n"
-                  "sphere { center: 2  radius: 1  material: m  normal_map: b }\n"
-                  "mesh { file: \"m.off\"  " WHITE " }\nmesh { file: \"m.off\"  scale: 2  " WHITE " }");
+    const struct scene *s = lower(
+        &l, "texture a = image { file: \"t.png\" }\n"
+            "texture b = image { file: \"t.png\"  filter: nearest }\n"
+            "material m = lambert { diffuse: 1  texture: a }\n"
+            "sphere { center: 0  radius: 1  material: m }\n"
+            "sphere { center: 1  radius: 1  material: m  normal_map: a }\n"
+            "sphere { center: 2  radius: 1  material: m  normal_map: b }\n"
+            "mesh { file: \"m.off\"  " WHITE " }\nmesh { file: \"m.off\"  scale: 2  " WHITE " }");
     ck_assert_uint_eq(s->images.n, 1);
     ck_assert_uint_eq(s->textures.n, 2);
     ck_assert_ptr_eq(s->textures.at[0].image, s->textures.at[1].image);
@@ -250,9 +260,10 @@ END_TEST
 START_TEST(mesh_is_scaled_then_moved)
 {
     struct load l;
-    const struct scene *s = lower(&l, "mesh { file: \"m.off\"  position: (10, 20, 30)  scale: (2, -3, 4)"
-                                      "  smooth: false  flip_normals: true  uv_file: \"uv.txt\""
-                                      "  normal_map: image { file: \"t.png\" }  " WHITE " }");
+    const struct scene *s =
+        lower(&l, "mesh { file: \"m.off\"  position: (10, 20, 30)  scale: (2, -3, 4)"
+                  "  smooth: false  flip_normals: true  uv_file: \"uv.txt\""
+                  "  normal_map: image { file: \"t.png\" }  " WHITE " }");
     const struct surface *m = &s->surfaces.at[0];
     check_vec3(s->geometry.vertices.at[0], 10, 20, 30);
     check_vec3(s->geometry.vertices.at[1], 12, 20, 30);
@@ -290,13 +301,19 @@ static const struct {
     const char *body;
     enum diag_code code;
 } failures[] = {
-    {"sphere { center: 0  radius: 1  material: lambert { diffuse: 1  texture: image { file: \"none.png\" } } }", DIAG_FILE_MISSING},
-    {"sphere { center: 0  radius: 1  material: lambert { diffuse: 1  texture: image { file: \"m.off\" } } }", DIAG_TEXTURE_DAMAGED},
+    {"sphere { center: 0  radius: 1  material: lambert { diffuse: 1  texture: image { file: "
+     "\"none.png\" } } }",
+     DIAG_FILE_MISSING},
+    {"sphere { center: 0  radius: 1  material: lambert { diffuse: 1  texture: image { file: "
+     "\"m.off\" } } }",
+     DIAG_TEXTURE_DAMAGED},
     {"mesh { file: \"none.off\"  " WHITE " }", DIAG_FILE_MISSING},
     {"mesh { file: \"t.png\"  " WHITE " }", DIAG_MESH_FORMAT},
     {"mesh { file: \"m.off\"  scale: 1e308  position: 1e308  " WHITE " }", DIAG_NOT_FINITE},
     {"cylinder { base: (0, 1e20, 0)  height: 1  radius: 1  " WHITE " }", DIAG_DEGENERATE},
-    {"mesh { file: \"m.off\"  uv_file: \"m.off\"  normal_map: image { file: \"t.png\" }  " WHITE " }", DIAG_MESH_SYNTAX},
+    {"mesh { file: \"m.off\"  uv_file: \"m.off\"  normal_map: image { file: \"t.png\" }  " WHITE
+     " }",
+     DIAG_MESH_SYNTAX},
 };
 
 START_TEST(files_that_fail)

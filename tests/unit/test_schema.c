@@ -101,7 +101,8 @@ static const struct {
 
 START_TEST(nearest_kind)
 {
-    struct str s = schema_nearest_kind(guesses[_i].group, str_of(guesses[_i].name), guesses[_i].xml);
+    struct str s =
+        schema_nearest_kind(guesses[_i].group, str_of(guesses[_i].name), guesses[_i].xml);
     ck_assert_msg(str_is(s, guesses[_i].found), "%.*s", STR_ARG(s));
 }
 END_TEST

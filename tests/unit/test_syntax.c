@@ -12,13 +12,17 @@
 #include <string.h>
 
 static const char *const kind_names[] = {
-    [AST_ERROR] = "error",       [AST_VERSION] = "version", [AST_MODEL] = "model",
-    [AST_LET] = "let",           [AST_PARAM] = "param",     [AST_MATERIAL] = "material",
-    [AST_TEXTURE] = "texture",   [AST_BLOCK] = "block",     [AST_PROPERTY] = "property",
-    [AST_ATTRIBUTE] = "attribute", [AST_NUMBER] = "number", [AST_ANGLE] = "angle",
-    [AST_STRING] = "string",     [AST_BOOL] = "bool",       [AST_COLOUR] = "colour",
-    [AST_NAME] = "name",         [AST_VECTOR] = "vector",   [AST_LIST] = "list",
-    [AST_CONSTRUCT] = "construct", [AST_NEGATE] = "negate", [AST_TEXT] = "text",
+    [AST_ERROR] = "error",         [AST_VERSION] = "version",
+    [AST_MODEL] = "model",         [AST_LET] = "let",
+    [AST_PARAM] = "param",         [AST_MATERIAL] = "material",
+    [AST_TEXTURE] = "texture",     [AST_BLOCK] = "block",
+    [AST_PROPERTY] = "property",   [AST_ATTRIBUTE] = "attribute",
+    [AST_NUMBER] = "number",       [AST_ANGLE] = "angle",
+    [AST_STRING] = "string",       [AST_BOOL] = "bool",
+    [AST_COLOUR] = "colour",       [AST_NAME] = "name",
+    [AST_VECTOR] = "vector",       [AST_LIST] = "list",
+    [AST_CONSTRUCT] = "construct", [AST_NEGATE] = "negate",
+    [AST_TEXT] = "text",
 };
 
 /* One line a node, in order, children deeper: what it is, its name, and the text at its place. */
@@ -145,7 +149,8 @@ static const struct {
 } comments[] = {
     {"// a\nwrt 1 /* b\n*/ // c", "0// a|1/* b\n*/|0// c|"},
     {"wrt 1\n\n\nlet a = /**/ 1 /***/ // ** / \n", "2\n\n\n|1/**/|1/***/|0// ** / |"},
-    {"<?xml?>\n<!-- a --><s><!-- - -- ->--><?p x?></s><!---->", "3<?xml?>|1<!-- a -->|1<!-- - -- ->-->|3<?p x?>|1<!---->|"},
+    {"<?xml?>\n<!-- a --><s><!-- - -- ->--><?p x?></s><!---->",
+     "3<?xml?>|1<!-- a -->|1<!-- - -- ->-->|3<?p x?>|1<!---->|"},
     {"wrt 1 let s = \"// no /* no\"", ""},
 };
 
@@ -220,10 +225,22 @@ static const struct {
     const char *text;
     enum ast_kind kind;
 } defines[] = {
-    {"1", AST_NUMBER},   {"-1", AST_NEGATE}, {"(1, 2)", AST_VECTOR}, {"[1]", AST_LIST},
-    {"gold", AST_NAME},  {"\"a\"", AST_STRING}, {"wood.png", AST_STRING}, {"", AST_STRING},
-    {"1 2", AST_STRING}, {"2x", AST_STRING}, {"a { b: 1 }", AST_CONSTRUCT}, {"((((", AST_STRING},
-    {"let", AST_STRING}, {"#aabbcc", AST_COLOUR}, {"<a/>", AST_STRING}, {"1; 2", AST_STRING},
+    {"1", AST_NUMBER},
+    {"-1", AST_NEGATE},
+    {"(1, 2)", AST_VECTOR},
+    {"[1]", AST_LIST},
+    {"gold", AST_NAME},
+    {"\"a\"", AST_STRING},
+    {"wood.png", AST_STRING},
+    {"", AST_STRING},
+    {"1 2", AST_STRING},
+    {"2x", AST_STRING},
+    {"a { b: 1 }", AST_CONSTRUCT},
+    {"((((", AST_STRING},
+    {"let", AST_STRING},
+    {"#aabbcc", AST_COLOUR},
+    {"<a/>", AST_STRING},
+    {"1; 2", AST_STRING},
 };
 
 START_TEST(value_of_define)
