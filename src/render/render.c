@@ -217,7 +217,7 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
     for (size_t i = 0; i < scene->materials.n; i++)
-        t->finishes[i] = finish_of(&scene->materials.at[i], t->skips);
+        t->finishes[i] = finish_of(&scene->materials.at[i]);
     t->emissive = mem_alloc(scene->surfaces.n, sizeof *t->emissive);
     for (size_t i = 0; i < scene->surfaces.n; i++) {
         const struct material *m = &scene->materials.at[scene->surfaces.at[i].material];

@@ -49,6 +49,7 @@ void shade_point_init(struct shade_point *s, const struct tracer *t, const struc
         s->normal = surface_normal(scene, surface, hit, s->normal);
     if (surface->needs_uv)
         apply_textures(s, scene, surface, hit);
+    s->facing = vec3_dot(s->normal, s->incoming);
 }
 
 /* Whole exponents up to this are multiplied out: 1e-13 off at most, and several times faster than
@@ -60,29 +61,15 @@ static bool is_zero(struct vec3 v)
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-/* Cosines may pass 1 by rounding errors: their powers stay finite up to an exponent of 1e6. */
-struct finish finish_of(const struct material *m, bool skips)
+struct finish finish_of(const struct material *m)
 {
-    bool whole = m->exponent >= 0 && m->exponent <= SQUARED_LIMIT && m->exponent == floor(m->exponent);
+    bool whole = m->exponent <= SQUARED_LIMIT && m->exponent == floor(m->exponent);
+    bool dull = m->kind == MATERIAL_LAMBERT || m->kind == MATERIAL_EMISSIVE;
     return (struct finish){.material = m,
                            .bounces = !is_zero(m->reflection) || !is_zero(m->refraction),
-                           .dull = m->kind == MATERIAL_LAMBERT || m->kind == MATERIAL_EMISSIVE,
-                           .black = is_zero(m->specular),
+                           .dull = dull || (whole && is_zero(m->specular)),
                            .squared = whole,
-                           .power = whole ? (unsigned)m->exponent : 0,
-                           .whole_power = skips && m->exponent >= 0 && m->exponent <= 1e6 &&
-                                          m->exponent == floor(m->exponent)};
-}
-
-/* Diffuse reflection of light from a direction of cosine `cosine`.  A textured metal spreads the
- * mean of its three channels. */
-static struct vec3 diffuse_term(const struct shade_point *s, double cosine)
-{
-    const struct material *m = s->finish->material;
-    struct vec3 lit = vec3_scale(s->diffuse, cosine);
-    if (m->kind != MATERIAL_METAL || m->texture == TEXTURE_NONE)
-        return lit;
-    return vec3_scale(m->diffuse, (lit.x + lit.y + lit.z) / 3);
+                           .power = whole ? (unsigned)m->exponent : 0};
 }
 
 /* x^n by repeated squaring: every step rounds, so the error is below n 2^-53. */
@@ -96,37 +83,32 @@ static double whole_power(double x, unsigned n)
     return result;
 }
 
+/* A fractional power of a negative cosine is no number. */
 static double highlight(const struct finish *f, double cosine)
 {
     return f->squared ? whole_power(cosine, f->power) : pow(cosine, f->material->exponent);
 }
 
-/* Whether adding k cosine^exponent cannot change the light, not even its last bit: the power is
- * below 2^-60, for x^n <= exp(-n (u + u^2/2)), u = 1 - x, and k not that much larger than the
- * light; or k is 0.  The power of a negative cosine must be a number. */
-static bool is_invisible(const struct finish *f, struct vec3 light, double cosine)
+/* Diffuse reflection of light from a direction of cosine `cosine`.  A textured metal spreads the
+ * mean of its three channels. */
+static struct vec3 diffuse_term(const struct shade_point *s, double cosine)
 {
-    const struct material *m = f->material;
-    struct vec3 k = m->specular;
-    if (!f->whole_power || f->black)
-        return f->whole_power;
-    double u = 1 - fabs(cosine);
-    return m->exponent * (u + 0.5 * u * u) > 42 && u > 0 && fabs(k.x) < 32 * fabs(light.x) &&
-           fabs(k.y) < 32 * fabs(light.y) && fabs(k.z) < 32 * fabs(light.z);
+    const struct material *m = s->finish->material;
+    struct vec3 lit = vec3_scale(s->diffuse, cosine);
+    if (m->kind != MATERIAL_METAL || m->texture == TEXTURE_NONE)
+        return lit;
+    return vec3_scale(m->diffuse, (lit.x + lit.y + lit.z) / 3);
 }
 
 /* Classic: neither cosine is clamped. */
 static struct vec3 direct_term(const struct shade_point *s, struct vec3 to_light)
 {
-    const struct material *m = s->finish->material;
     double cosine = vec3_dot(s->normal, to_light);
     struct vec3 light = diffuse_term(s, cosine);
     if (s->finish->dull)
         return light;
-    double mirrored = vec3_dot(s->incoming, vec3_mad(to_light, -2 * cosine, s->normal));
-    if (is_invisible(s->finish, light, mirrored))
-        return light;
-    return vec3_mad(light, highlight(s->finish, mirrored), m->specular);
+    double mirrored = vec3_dot(s->incoming, to_light) - 2 * cosine * s->facing;
+    return vec3_mad(light, highlight(s->finish, mirrored), s->finish->material->specular);
 }
 
 /* Intensity of the light at the point. */

@@ -53,8 +53,7 @@ static void add_ray(struct offspring *o, const struct shade_point *s, struct vec
 
 static void add_reflection(struct level *level, const struct shade_point *s, struct vec3 weight)
 {
-    double cosine = vec3_dot(s->normal, s->incoming);
-    struct vec3 direction = vec3_normalize(vec3_mad(s->incoming, -2 * cosine, s->normal));
+    struct vec3 direction = vec3_normalize(vec3_mad(s->incoming, -2 * s->facing, s->normal));
     add_ray(&level->reflected, s, direction, (struct path){1, SURFACE_NONE, s->ray, weight});
 }
 
@@ -73,7 +72,7 @@ static void add_refraction(struct level *level, const struct scene *scene,
 {
     double ior = s->finish->material->ior, eta = s->inside ? ior : index / ior;
     struct vec3 normal = s->inside ? vec3_neg(s->normal) : s->normal;
-    double c = -vec3_dot(s->incoming, normal), k = 1 - eta * eta * (1 - c * c);
+    double c = s->inside ? s->facing : -s->facing, k = 1 - eta * eta * (1 - c * c);
     if (!(k > 0))
         return;
     struct vec3 direction = vec3_scale(s->incoming, eta);

@@ -26,9 +26,7 @@ struct lamp {
 struct finish {
     const struct material *material;
     bool bounces;     /* it reflects or refracts */
-    bool dull;        /* no highlight at all */
-    bool black;       /* its highlight is 0 times a power */
-    bool whole_power; /* the power of any cosine is a number; false without skips */
+    bool dull;        /* no highlight, or 0 times a power that is a number */
     bool squared;     /* the exponent is whole and small: `power`, multiplied out */
     unsigned power;
 };
@@ -58,6 +56,7 @@ struct shade_point {
     struct vec3 incoming; /* unit, direction of travel */
     struct vec3 p, normal;
     struct vec3 diffuse; /* the material's, times its texel */
+    double facing;       /* cosine between normal and incoming */
     uint32_t prim, surface;
     uint32_t ray; /* place in the batch */
     bool inside;  /* refracted into the surface it meets: the far side of what it crossed */
@@ -99,7 +98,7 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint
                  double *shares);
 
 /* shade.c */
-struct finish finish_of(const struct material *m, bool skips);
+struct finish finish_of(const struct material *m);
 void shade_point_init(struct shade_point *s, const struct tracer *t, const struct ray *ray,
                       struct hit *hit);
 /* Fills in w->light for the first n of w->points. */
