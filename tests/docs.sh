@@ -24,7 +24,12 @@ while IFS= read -r option; do
     grep -q -- "Fl -$option" man/wrt.1 || complain "wrt.1: option --$option is not described"
 done < <(sed -n 's/^OPT([^"]*"\([^"]*\)".*/\1/p' src/cmd/opts.def)
 
-diff <(grep '^|' README.md) build-aux/packages.md >/dev/null ||
+# the one-page reference names every native kind and property
+while IFS= read -r name; do
+    grep -qF "\`$name\`" README.md || complain "README.md: '$name' of schema.def is not in the reference"
+done < <(sed -n 's/^KIND([^"]*"\([^"]*\)".*/\1/p; s/^PROP([^"]*"\([^"]*\)".*/\1/p' src/schema/schema.def)
+
+diff <(sed -n '/^| Needed/,$p' README.md | grep '^|') build-aux/packages.md >/dev/null ||
     complain "README.md: the table of packages differs from build-aux/packages.md"
 
 [ $failed = 0 ]

@@ -24,9 +24,11 @@ static json_t *skipped_names(const struct scene *s)
     return list;
 }
 
-static void print_json(json_t *object)
+/* One line where diagnostics are JSON lines too. */
+static void print_json(json_t *object, const struct options *o)
 {
-    if (object && json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) == 0)
+    size_t layout = o->format == DIAG_FORMAT_JSON ? JSON_COMPACT : JSON_INDENT(2);
+    if (object && json_dumpf(object, stdout, layout | JSON_REAL_PRECISION(6)) == 0)
         putchar('\n');
     json_decref(object);
 }
@@ -45,7 +47,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
         (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction, "shadow_rays_skipped",
         (json_int_t)r->shadow_skipped, "surfaces", (json_int_t)scene->surfaces.n, "triangles",
         (json_int_t)count_triangles(scene), "skipped", skipped_names(scene), "peak_rss_bytes",
-        (json_int_t)peak_rss_bytes()));
+        (json_int_t)peak_rss_bytes()), o);
 }
 
 static void render_text(const struct run_stats *s, const struct options *o,
@@ -87,7 +89,7 @@ void stats_print_check(const struct check_stats *s, const struct options *o)
                              (json_int_t)s->lights, "materials", (json_int_t)s->materials,
                              "textures", (json_int_t)s->textures, "errors", (json_int_t)s->errors,
                              "warnings", (json_int_t)s->warnings, "peak_rss_bytes",
-                             (json_int_t)peak_rss_bytes()));
+                             (json_int_t)peak_rss_bytes()), o);
     else if (o->stats == STATS_TEXT)
         fprintf(stderr, "%s: %zu surfaces, %zu lights, %zu materials, %zu textures; %.4f s, %.1f MB at most\n",
                 s->scene, s->surfaces, s->lights, s->materials, s->textures, s->parse_s,

@@ -229,7 +229,7 @@ static void require_classic(struct eval *e, const struct ast_node *model)
         diag_report(e->diag, DIAG_MODEL, model ? model->name_span : e->out->start,
                     "the model 'modern' is not available; this version renders 'classic'");
     diag_note(entry, model ? "write 'model classic'"
-                           : "a scene without a model is modern; write 'model classic'");
+                           : "a scene that names no model is modern; add the line 'model classic'");
 }
 
 void eval_native(struct eval *e, const struct ast_node *statements)

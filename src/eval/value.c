@@ -113,6 +113,7 @@ static void report_not_constructible(struct eval *e, const struct ast_node *node
             str_nearest_try(&nearest, str_of(schema_kinds[k].native));
     try_defined_names(e, &nearest);
     diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
+    diag_note(entry, "the materials are: lambert phong shiny metal glass emissive; a texture is 'image'");
 }
 
 /* `phong { ... }` makes an object; `gold { ... }` one like gold, with changes. */

@@ -78,11 +78,22 @@ static const struct source *load_source(struct lowering *l, const struct desc_va
     return s;
 }
 
+/* What was found in a file since `first` also shows who asked for the file. */
+static void label_request(struct lowering *l, size_t first, const struct desc_value *file)
+{
+    for (size_t i = first; i < l->diag->entries.n; i++)
+        diag_label(l->diag->entries.at[i], file->span, "the scene names the file here");
+}
+
 static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file, const char *path)
 {
 #ifdef HAVE_OPENMESH
     const struct source *s = load_source(l, file, path, "mesh");
-    return s ? off_parse(s, l->diag) : NULL;
+    size_t first = l->diag->entries.n;
+    struct mesh *m = s ? off_parse(s, l->diag) : NULL;
+    if (s)
+        label_request(l, first, file);
+    return m;
 #else
     diag_report(l->diag, DIAG_MESH_SUPPORT, file->span,
                 "cannot use the mesh '%s': this wrt was built without OpenMesh", path);
@@ -106,8 +117,12 @@ const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *fi
 {
     const struct source *s = load_source(l, file, path_of(l, file), "UV list");
     struct vec2 *uvs = NULL;
-    if (!s || !uv_list_parse(s, faces, &uvs, l->diag))
+    size_t first = l->diag->entries.n;
+    if (!s || !uv_list_parse(s, faces, &uvs, l->diag)) {
+        if (s)
+            label_request(l, first, file);
         return NULL;
+    }
     size_t n = 3 * faces;
     struct vec2 *kept = arena_zalloc(&l->scene->arena, n, sizeof *kept);
     memcpy(kept, uvs, n * sizeof *kept);

@@ -3,6 +3,7 @@
 
 #include "lower/lowering.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,6 +152,7 @@ bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometr
 {
     enum { MOST = 4 }; /* prims and vertices of any shape but a mesh, which asks for itself */
     *first_vertex = (uint32_t)g->vertices.n;
+    assert(shapes[o->kind].add);
     return fits(l, o, g, MOST, MOST) && shapes[o->kind].add(l, o, g, surface);
 }
 

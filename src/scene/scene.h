@@ -18,7 +18,7 @@ struct camera {
     struct vec3 origin;
     struct vec3 back; /* from the scene to the eye, any length */
     struct vec3 up;
-    double yfov;              /* degrees; see wrt(5) for what classic makes of it */
+    double yfov;              /* degrees; half the field of view once times the aspect ratio */
     uint32_t width, height;   /* the scene's own resolution */
     bool compatible;          /* compatMode 1; 0 negates the world z of directions */
 };

@@ -49,6 +49,19 @@ static bool is_reserved(const char *found)
     return strcmp(found, "reserved word") == 0;
 }
 
+/* How to write what was probably meant. */
+static void add_advice(const struct parser *p, struct diag_entry *e, struct str found, bool at_end,
+                       const char *const *expected, size_t n)
+{
+    bool colon = false;
+    for (size_t i = 0; i < n; i++)
+        colon |= strcmp(expected[i], "':'") == 0;
+    if (at_end && p->depth > 0)
+        diag_label(e, p->brackets[p->depth - 1], "this is not closed");
+    else if (colon && str_is(found, "="))
+        diag_note(e, "a property is written 'name: value'");
+}
+
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n)
 {
@@ -70,6 +83,7 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
         n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
+    add_advice(p, e, text, at_end, shown, n);
     if (is_reserved(found))
         diag_note(e, "%s is reserved for a statement that this version does not read", what);
 }

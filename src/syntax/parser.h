@@ -35,7 +35,8 @@ struct parser {
     uint32_t comment_begin; /* of the comment, string or section being scanned */
 
     struct ast_list version; /* native: `wrt 1` */
-    unsigned depth;          /* native: open brackets */
+    struct span brackets[NESTING_LIMIT]; /* native: the open ones */
+    unsigned depth;                      /* native: how many */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */

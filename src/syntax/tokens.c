@@ -40,8 +40,10 @@ void parser_stop(struct parser *p, enum diag_code code, struct span span, const 
 
 bool parser_nest(struct parser *p, struct span span)
 {
-    if (++p->depth <= NESTING_LIMIT)
+    if (p->depth < NESTING_LIMIT) {
+        p->brackets[p->depth++] = span;
         return true;
+    }
     parser_stop(p, DIAG_TOO_DEEP, span,
                 "brackets nested deeper than 256 levels, so the rest is not read");
     return false;
