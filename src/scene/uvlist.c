@@ -99,7 +99,7 @@ bool uv_list_parse(const struct source *source, size_t faces, struct vec2 **out,
     if (faces > SIZE_MAX / 3 || 3 * faces > most) {
         r.n = most;
         r.wanted = faces > SIZE_MAX / 3 ? SIZE_MAX : 3 * faces;
-        return report_missing(&r, "some");
+        return report_missing(&r, "at most");
     }
     r.wanted = 3 * faces;
     r.out = mem_alloc(r.wanted, sizeof *r.out);
