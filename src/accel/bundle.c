@@ -2,6 +2,8 @@
 
 #include "accel/bundle.h"
 
+#include <assert.h>
+
 /* The rays made ready, and their best hits so far. */
 struct meeting {
     const struct geometry *geometry;
@@ -16,9 +18,11 @@ static void meeting_init(struct meeting *m, const struct accel *a, const struct 
                          struct hit *hits)
 {
     bool spheres = false, triangles = false;
+    assert(b->n > 0);
     m->geometry = a->geometry;
     m->bundle = b;
     m->hits = hits;
+    m->axis = -1;
     for (uint32_t i = 0; i < b->list->n; i++) {
         spheres |= b->list->at[i].kind == PRIM_SPHERE;
         triangles |= b->list->at[i].kind == PRIM_TRIANGLE;

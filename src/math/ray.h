@@ -76,8 +76,9 @@ static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bo
     f->square = vec3_dot(d, d);
     f->tolerance = ray->spawned ? SPAWN_TOLERANCE : 0;
     f->reach = ray->spawned ? vec3_largest(ray->origin) : 0;
-    if (spheres)
-        f->inverse_square = 1 / f->square;
+    f->inverse_square = spheres ? 1 / f->square : 0;
+    f->shear_x = f->shear_y = 0;
+    f->axis = -1;
     if (!triangles)
         return;
     double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
