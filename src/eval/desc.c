@@ -11,12 +11,18 @@ void desc_free(struct desc *d)
     arena_free(&d->arena);
 }
 
-const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id)
+const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id)
 {
     for (const struct desc_prop *p = o->props; p; p = p->next)
         if (p->id == id)
-            return &p->value;
+            return p;
     return NULL;
+}
+
+const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id)
+{
+    const struct desc_prop *p = desc_find(o, id);
+    return p ? &p->value : NULL;
 }
 
 struct vec3 desc_vector(const struct desc_object *o, enum schema_prop_id id)

@@ -56,6 +56,9 @@ struct desc {
 
 void desc_free(struct desc *d);
 
+/* The property as it was given, or NULL when it was not. */
+const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id);
+
 /* The property's value, or NULL when it is not given. */
 const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id);
 

@@ -63,7 +63,7 @@ static void note_props(struct diag_entry *entry, const struct desc_object *o)
                 break;
         }
     }
-    const char *kind = o->xml ? schema_kinds[o->kind].xml : schema_kinds[o->kind].native;
+    const char *kind = schema_kind_name(o->kind, o->xml);
     diag_note(entry, "%s has:%s", kind, list);
 }
 
@@ -73,7 +73,7 @@ enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o
     enum schema_prop_id id = schema_find_prop(o->kind, name, o->xml, leaf);
     if (id != SCHEMA_PROPS)
         return id;
-    const char *kind = o->xml ? schema_kinds[o->kind].xml : schema_kinds[o->kind].native;
+    const char *kind = schema_kind_name(o->kind, o->xml);
     struct diag_entry *entry =
         diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, name_span, "unknown %s '%.*s' of %s",
                     o->xml ? "element" : "property", STR_ARG(name), kind);
@@ -132,7 +132,7 @@ void report_unknown_kind(struct eval *e, enum schema_group group, struct str nam
         if (schema_kinds[k].group != group)
             continue;
         int put = snprintf(list + at, sizeof list - at, "%s%s", at ? ", " : " ",
-                           xml ? schema_kinds[k].xml : schema_kinds[k].native);
+                           schema_kind_name((enum schema_kind)k, xml));
         at += put > 0 ? (size_t)put : 0;
     }
     diag_note(entry, "there are:%s", list);

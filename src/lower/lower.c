@@ -44,7 +44,7 @@ static void note_unused(struct lowering *l)
             note_skipped(l, "material", d->materials.at[i]->name);
     for (size_t i = 0; i < d->surfaces.n; i++) {
         const struct desc_value *uvs = desc_get(d->surfaces.at[i], PROP_UV_FILE);
-        if (uvs && i < l->scene->surfaces.n && !desc_get(d->surfaces.at[i], PROP_NORMAL_MAP) &&
+        if (uvs && !desc_get(d->surfaces.at[i], PROP_NORMAL_MAP) &&
             !desc_get(desc_get(d->surfaces.at[i], PROP_MATERIAL)->object, PROP_TEXTURE))
             note_skipped(l, "uv_file", uvs->string);
     }

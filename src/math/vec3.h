@@ -3,6 +3,9 @@
 #define WRT_MATH_VEC3_H
 
 #include <math.h>
+#include <stdbool.h>
+
+#define PI 3.14159265358979323846
 
 struct vec2 {
     double x, y;
@@ -82,6 +85,11 @@ static inline struct vec3 vec3_cross(struct vec3 a, struct vec3 b)
     return (struct vec3){difference_of_products(a.y, b.z, a.z, b.y),
                          difference_of_products(a.z, b.x, a.x, b.z),
                          difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+static inline bool vec3_is_zero(struct vec3 a)
+{
+    return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
 static inline double vec3_at(struct vec3 a, int axis)

@@ -2,8 +2,6 @@
 
 #include "render/camera.h"
 
-#define PI 3.14159265358979323846
-
 struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
 {
     double w = c->width, h = c->height;

@@ -56,18 +56,13 @@ void shade_point_init(struct shade_point *s, const struct tracer *t, const struc
  * pow. */
 enum { SQUARED_LIMIT = 1000 };
 
-static bool is_zero(struct vec3 v)
-{
-    return v.x == 0 && v.y == 0 && v.z == 0;
-}
-
 struct finish finish_of(const struct material *m)
 {
     bool whole = m->exponent <= SQUARED_LIMIT && m->exponent == floor(m->exponent);
     bool dull = m->kind == MATERIAL_LAMBERT || m->kind == MATERIAL_EMISSIVE;
     return (struct finish){.material = m,
-                           .bounces = !is_zero(m->reflection) || !is_zero(m->refraction),
-                           .dull = dull || (whole && is_zero(m->specular)),
+                           .bounces = !vec3_is_zero(m->reflection) || !vec3_is_zero(m->refraction),
+                           .dull = dull || (whole && vec3_is_zero(m->specular)),
                            .squared = whole,
                            .power = whole ? (unsigned)m->exponent : 0};
 }

@@ -34,11 +34,6 @@ static struct level *level_at(struct worker *w, uint32_t depth)
     return level;
 }
 
-static bool is_zero(struct vec3 v)
-{
-    return v.x == 0 && v.y == 0 && v.z == 0;
-}
-
 static void add_ray(struct offspring *o, const struct shade_point *s, struct vec3 direction,
                     struct path path)
 {
@@ -146,9 +141,9 @@ static void add_offspring(struct level *level, const struct scene *scene,
     const struct material *m = s->finish->material;
     struct vec3 reflected = vec3_mul(intensity, m->reflection);
     struct vec3 refracted = vec3_mul(intensity, m->refraction);
-    if (!is_zero(reflected))
+    if (!vec3_is_zero(reflected))
         add_reflection(level, s, reflected);
-    if (!is_zero(refracted))
+    if (!vec3_is_zero(refracted))
         add_refraction(level, scene, s, index, refracted);
 }
 

@@ -2,8 +2,6 @@
 
 #include "scene/scene.h"
 
-#define PI 3.14159265358979323846
-
 static double clamp(double x, double lo, double hi)
 {
     return x < lo ? lo : x > hi ? hi : x;

@@ -54,7 +54,13 @@ static struct str half_of(struct str pair, bool xml)
     return xml ? (struct str){equals + 1, pair.n - left - 1} : (struct str){pair.at, left};
 }
 
-static const char *kind_name(enum schema_kind k, bool xml)
+const char *schema_kind_name(enum schema_kind kind, bool xml)
+{
+    return xml ? schema_kinds[kind].xml : schema_kinds[kind].native;
+}
+
+/* What follows `light` or `class=`: the word that tells the kinds of a group apart. */
+static const char *kind_word(enum schema_kind k, bool xml)
 {
     const char *native = schema_kinds[k].native, *space = strchr(native, ' ');
     return xml ? schema_kinds[k].xml : space ? space + 1 : native;
@@ -63,7 +69,7 @@ static const char *kind_name(enum schema_kind k, bool xml)
 enum schema_kind schema_find_kind(enum schema_group group, struct str name, bool xml)
 {
     for (int k = 0; k < SCHEMA_KINDS; k++)
-        if (schema_kinds[k].group == group && str_is(name, kind_name((enum schema_kind)k, xml)))
+        if (schema_kinds[k].group == group && str_is(name, kind_word((enum schema_kind)k, xml)))
             return (enum schema_kind)k;
     for (size_t i = 0; xml && i < sizeof aliases / sizeof *aliases; i++)
         if (schema_kinds[aliases[i].kind].group == group && str_is(name, aliases[i].xml))
@@ -76,7 +82,7 @@ struct str schema_nearest_kind(enum schema_group group, struct str name, bool xm
     struct str_nearest nearest = str_nearest_to(name);
     for (int k = 0; k < SCHEMA_KINDS; k++)
         if (schema_kinds[k].group == group)
-            str_nearest_try(&nearest, str_of(kind_name((enum schema_kind)k, xml)));
+            str_nearest_try(&nearest, str_of(kind_word((enum schema_kind)k, xml)));
     return str_nearest_found(&nearest);
 }
 

@@ -76,6 +76,9 @@ static inline bool schema_has(enum schema_kind kind, enum schema_prop_id prop)
     return schema_props[prop].kinds >> kind & 1;
 }
 
+/* The kind as a user of the format spells it. */
+const char *schema_kind_name(enum schema_kind kind, bool xml);
+
 /* The kind by its last native word (or XML class) in a group; SCHEMA_KINDS: none. */
 enum schema_kind schema_find_kind(enum schema_group group, struct str name, bool xml);
 /* The nearest name, for "did you mean"; empty when none is near. */

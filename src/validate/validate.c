@@ -9,7 +9,7 @@
 
 static const char *kind_name(const struct desc_object *o)
 {
-    return o->xml ? schema_kinds[o->kind].xml : schema_kinds[o->kind].native;
+    return schema_kind_name(o->kind, o->xml);
 }
 
 static struct str prop_name(const struct desc_object *o, enum schema_prop_id id)
@@ -17,18 +17,10 @@ static struct str prop_name(const struct desc_object *o, enum schema_prop_id id)
     return schema_prop_name(id, o->xml);
 }
 
-static const struct desc_prop *find_prop(const struct desc_object *o, enum schema_prop_id id)
-{
-    for (const struct desc_prop *p = o->props; p; p = p->next)
-        if (p->id == id)
-            return p;
-    return NULL;
-}
-
 /* Where the property's name or value stands; no place when it is not given. */
 static struct span name_span(const struct desc_object *o, enum schema_prop_id id)
 {
-    const struct desc_prop *p = find_prop(o, id);
+    const struct desc_prop *p = desc_find(o, id);
     return p ? p->name_span : (struct span){0};
 }
 
@@ -44,7 +36,7 @@ static void check_required(const struct desc_object *o, struct diag *diag)
 {
     for (int i = 0; i < SCHEMA_PROPS; i++) {
         enum schema_prop_id id = (enum schema_prop_id)i;
-        if (!schema_has(o->kind, id) || !schema_props[id].required || find_prop(o, id))
+        if (!schema_has(o->kind, id) || !schema_props[id].required || desc_find(o, id))
             continue;
         struct str name = prop_name(o, id);
         struct diag_entry *e = diag_report(diag, DIAG_MISSING_PROPERTY, o->span, "%s has no '%.*s'",
@@ -117,11 +109,6 @@ static bool check_props(const struct desc_object *o, struct diag *diag)
 
 /* ---- rules between the properties of a kind ---- */
 
-static bool is_zero(struct vec3 v)
-{
-    return v.x == 0 && v.y == 0 && v.z == 0;
-}
-
 /* The sine of the angle between two directions, free of overflow. */
 static double sine_between(struct vec3 a, struct vec3 b)
 {
@@ -138,10 +125,10 @@ static void check_camera(const struct desc_object *o, struct diag *diag)
     struct vec3 size = desc_vector(o, PROP_RESOLUTION);
     struct span back = value_span(o, PROP_BACK), up = value_span(o, PROP_UP);
     struct vec3 z = desc_vector(o, PROP_BACK), y = desc_vector(o, PROP_UP);
-    if (is_zero(z))
+    if (vec3_is_zero(z))
         diag_report(diag, DIAG_DEGENERATE, back, "'%.*s' is a direction without length",
                     STR_ARG(prop_name(o, PROP_BACK)));
-    else if (is_zero(y))
+    else if (vec3_is_zero(y))
         diag_report(diag, DIAG_DEGENERATE, up, "'%.*s' is a direction without length",
                     STR_ARG(prop_name(o, PROP_UP)));
     else if (!(sine_between(z, y) > PARALLEL_SINE))
@@ -203,7 +190,7 @@ static void check_cylinder(const struct desc_object *o, struct diag *diag)
         diag_report(diag, DIAG_MISSING_PROPERTY, o->span, "%s has neither '%.*s' nor '%.*s'",
                     kind_name(o), STR_ARG(prop_name(o, PROP_HEIGHT)),
                     STR_ARG(prop_name(o, PROP_TOP)));
-    else if (is_zero(vec3_sub(vec3(top->number[0], top->number[1], top->number[2]), base)))
+    else if (vec3_is_zero(vec3_sub(vec3(top->number[0], top->number[1], top->number[2]), base)))
         diag_report(diag, DIAG_DEGENERATE, top->span, "'%.*s' equals '%.*s': no height",
                     STR_ARG(prop_name(o, PROP_TOP)), STR_ARG(prop_name(o, PROP_BASE)));
 }
@@ -233,11 +220,11 @@ static void check_uvs(const struct desc_object *o, struct diag *diag)
 {
     enum schema_prop_id uvs = uv_prop(o->kind);
     const struct desc_value *material = desc_get(o, PROP_MATERIAL);
-    const struct desc_prop *map = find_prop(o, PROP_NORMAL_MAP);
+    const struct desc_prop *map = desc_find(o, PROP_NORMAL_MAP);
     if (uvs == SCHEMA_PROPS || desc_get(o, uvs))
         return;
     const struct desc_object *m = material ? material->object : NULL;
-    const struct desc_prop *texture = m ? find_prop(m, PROP_TEXTURE) : NULL;
+    const struct desc_prop *texture = m ? desc_find(m, PROP_TEXTURE) : NULL;
     const struct desc_prop *why = map ? map : texture;
     if (!why)
         return;
