@@ -67,19 +67,38 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %token <text> COLOUR "colour"
 %token WRT "'wrt'" MODEL "'model'" LET "'let'" PARAM "'param'"
 %token <text> MATERIAL "'material'" TEXTURE "'texture'"
+%token INCLUDE "'include'" FN "'fn'" DEFAULT "'default'" DEFINE "'define'" ASSERT "'assert'"
+%token FOR "'for'" IN "'in'" IF "'if'" ELSE "'else'"
 %token TRUE "'true'" FALSE "'false'"
-%token RESERVED "reserved word" /* for the statements of later versions */
 %token LBRACE "'{'" RBRACE "'}'" LPAREN "'('" RPAREN "')'" LBRACKET "'['" RBRACKET "']'"
-%token COLON "':'" COMMA "','" SEMICOLON "';'" EQUALS "'='" MINUS "'-'"
+%token COMMA "','" SEMICOLON "';'" EQUALS "'='" DOT "'.'"
+
+%token QUESTION "'?'" COLON "':'" OR "'||'" AND "'&&'" EQUAL "'=='" NOT_EQUAL "'!='"
+%token LESS "'<'" LESS_EQUAL "'<='" GREATER "'>' of a comparison" GREATER_EQUAL "'>='"
+%token PLUS "'+'" MINUS "'-'" STAR "'*'" SLASH "'/'" PERCENT "'%'" NOT "'!'" CARET "'^'"
+
+/* The loosest first. */
+%right QUESTION COLON
+%left OR
+%left AND
+%left EQUAL NOT_EQUAL
+%left LESS LESS_EQUAL GREATER GREATER_EQUAL
+%left PLUS MINUS
+%left STAR SLASH PERCENT
+%precedence NOT SIGN
+%right CARET
 
 /* XML; the scanner's side keeps tags balanced (syntax/balance.c) */
 %token <text> XML_OPEN "opening tag" XML_ATTRIBUTE "attribute" XML_VALUE "quoted value"
 %token <text> XML_TEXT "text" XML_CLOSE "closing tag"
 %token XML_EQUALS "'=' of an attribute" XML_TAG_END "'>'" XML_EMPTY_END "'/>'"
 
-%nterm <list> statements members values components attributes
-%nterm <list> block
-%nterm <node> statement member property value expression element attribute
+%nterm <list> statements members block
+%nterm <list> parameters parameter_list arguments argument_list
+%nterm <list> values components attributes
+%nterm <node> statement if body member property
+%nterm <node> parameter argument value construct expression primary
+%nterm <node> element attribute
 %nterm <text> property_name
 %nterm <content> content
 
@@ -108,12 +127,77 @@ statements:
 
 statement:
   MODEL NAME                         { $$ = ast_named(p->ast, AST_MODEL, @$, $NAME, @NAME); }
+| INCLUDE STRING
+    { $$ = ast_with(ast_node(p->ast, AST_INCLUDE, @$), ast_text(p->ast, AST_STRING, @2, $2)); }
 | LET NAME EQUALS value              { $$ = ast_with(ast_named(p->ast, AST_LET, @$, $NAME, @NAME), $value); }
 | PARAM NAME EQUALS value            { $$ = ast_with(ast_named(p->ast, AST_PARAM, @$, $NAME, @NAME), $value); }
 | MATERIAL NAME EQUALS value         { $$ = ast_with(ast_named(p->ast, AST_MATERIAL, @$, $NAME, @NAME), $value); }
 | TEXTURE NAME EQUALS value          { $$ = ast_with(ast_named(p->ast, AST_TEXTURE, @$, $NAME, @NAME), $value); }
-| NAME block                         { $$ = parser_block(p, @$, $NAME, @NAME, (struct str){0}, $block); }
-| NAME[kind] NAME[label] block       { $$ = parser_block(p, @$, $kind, @kind, $label, $block); }
+| FN NAME LPAREN parameters RPAREN EQUALS value
+    { $$ = ast_holding(ast_named(p->ast, AST_FN, @$, $NAME, @NAME), ast_append($parameters, $value)); }
+| DEFINE NAME LPAREN parameters RPAREN body
+    { $$ = ast_holding(ast_named(p->ast, AST_DEFINE, @$, $NAME, @NAME), ast_append($parameters, $body)); }
+| DEFAULT NAME block
+    { $$ = parser_block(p, AST_DEFAULT, @$, $NAME, @NAME, (struct str){0}, $block); }
+| DEFAULT NAME[kind] NAME[label] block
+    { $$ = parser_block(p, AST_DEFAULT, @$, $kind, @kind, $label, $block); }
+| ASSERT expression COMMA expression[message]
+    { $$ = ast_holding(ast_node(p->ast, AST_ASSERT, @$), ast_pair($2, $message)); }
+| FOR NAME IN expression body
+    { $$ = ast_holding(ast_named(p->ast, AST_FOR, @$, $NAME, @NAME), ast_pair($expression, $body)); }
+| if
+| NAME LPAREN arguments RPAREN
+    { $$ = ast_holding(ast_named(p->ast, AST_USE, @$, $NAME, @NAME), $arguments); }
+| NAME LPAREN arguments RPAREN body
+    { $$ = ast_holding(ast_named(p->ast, AST_USE, @$, $NAME, @NAME), ast_append($arguments, $body)); }
+| NAME block
+    { $$ = parser_block(p, AST_BLOCK, @$, $NAME, @NAME, (struct str){0}, $block); }
+| NAME[kind] NAME[label] block
+    { $$ = parser_block(p, AST_BLOCK, @$, $kind, @kind, $label, $block); }
+;
+
+if:
+  IF expression body  { $$ = ast_holding(ast_node(p->ast, AST_IF, @$), ast_pair($2, $3)); }
+| IF expression body[then] ELSE body[else]
+    { $$ = ast_holding(ast_node(p->ast, AST_IF, @$), ast_append(ast_pair($2, $then), $else)); }
+| IF expression body ELSE if[other]
+    { $$ = ast_holding(ast_node(p->ast, AST_IF, @$), ast_append(ast_pair($2, $3), $other)); }
+;
+
+parameters:
+  %empty                { $$ = (struct ast_list){0}; }
+| parameter_list
+| parameter_list COMMA
+;
+
+parameter_list:
+  parameter                              { $$ = ast_append((struct ast_list){0}, $1); }
+| parameter_list[list] COMMA parameter   { $$ = ast_append($list, $3); }
+;
+
+parameter:
+  NAME               { $$ = ast_named(p->ast, AST_PARAMETER, @$, $NAME, @NAME); }
+| NAME EQUALS value  { $$ = ast_with(ast_named(p->ast, AST_PARAMETER, @$, $NAME, @NAME), $value); }
+;
+
+arguments:
+  %empty               { $$ = (struct ast_list){0}; }
+| argument_list
+| argument_list COMMA
+;
+
+argument_list:
+  argument                             { $$ = ast_append((struct ast_list){0}, $1); }
+| argument_list[list] COMMA argument   { $$ = ast_append($list, $3); }
+;
+
+argument:
+  value
+| NAME EQUALS value  { $$ = ast_with(ast_named(p->ast, AST_ARGUMENT, @$, $NAME, @NAME), $value); }
+;
+
+body:
+  block  { $$ = ast_holding(ast_node(p->ast, AST_BODY, @$), $block); }
 ;
 
 block:
@@ -147,10 +231,37 @@ property_name: NAME | MATERIAL | TEXTURE;
 
 value:
   expression
-| NAME block  { $$ = ast_holding(ast_named(p->ast, AST_CONSTRUCT, @$, $NAME, @NAME), $block); }
+| construct
+;
+
+construct:
+  NAME block  { $$ = ast_holding(ast_named(p->ast, AST_CONSTRUCT, @$, $NAME, @NAME), $block); }
 ;
 
 expression:
+  primary
+| expression OR expression             { $$ = ast_chain(p->ast, @$, $1, AST_OR, $3); }
+| expression AND expression            { $$ = ast_chain(p->ast, @$, $1, AST_AND, $3); }
+| expression EQUAL expression          { $$ = ast_chain(p->ast, @$, $1, AST_EQUAL, $3); }
+| expression NOT_EQUAL expression      { $$ = ast_chain(p->ast, @$, $1, AST_NOT_EQUAL, $3); }
+| expression LESS expression           { $$ = ast_chain(p->ast, @$, $1, AST_LESS, $3); }
+| expression LESS_EQUAL expression     { $$ = ast_chain(p->ast, @$, $1, AST_LESS_EQUAL, $3); }
+| expression GREATER expression        { $$ = ast_chain(p->ast, @$, $1, AST_GREATER, $3); }
+| expression GREATER_EQUAL expression  { $$ = ast_chain(p->ast, @$, $1, AST_GREATER_EQUAL, $3); }
+| expression PLUS expression           { $$ = ast_chain(p->ast, @$, $1, AST_ADD, $3); }
+| expression MINUS expression          { $$ = ast_chain(p->ast, @$, $1, AST_SUBTRACT, $3); }
+| expression STAR expression           { $$ = ast_chain(p->ast, @$, $1, AST_MULTIPLY, $3); }
+| expression SLASH expression          { $$ = ast_chain(p->ast, @$, $1, AST_DIVIDE, $3); }
+| expression PERCENT expression        { $$ = ast_chain(p->ast, @$, $1, AST_MODULO, $3); }
+| expression CARET expression          { $$ = ast_chain(p->ast, @$, $1, AST_POWER, $3); }
+| MINUS expression %prec SIGN          { $$ = ast_prefix(p->ast, @$, AST_NEGATE, $2); }
+| PLUS expression %prec SIGN           { $$ = ast_prefix(p->ast, @$, AST_PLUS, $2); }
+| NOT expression                       { $$ = ast_prefix(p->ast, @$, AST_NOT, $2); }
+| expression QUESTION expression[yes] COLON expression[no]
+    { $$ = ast_holding(ast_node(p->ast, AST_CONDITIONAL, @$), ast_append(ast_pair($1, $yes), $no)); }
+;
+
+primary:
   NUMBER       { $$ = parser_number(p, AST_NUMBER, @$, $1); }
 | DEGREES      { $$ = parser_number(p, AST_ANGLE, @$, $1); }
 | RADIANS      { $$ = parser_number(p, AST_ANGLE, @$, $1); $$->unit = AST_RADIANS; }
@@ -159,13 +270,23 @@ expression:
 | TRUE         { $$ = ast_node(p->ast, AST_BOOL, @$); $$->boolean = true; }
 | FALSE        { $$ = ast_node(p->ast, AST_BOOL, @$); }
 | NAME         { $$ = ast_named(p->ast, AST_NAME, @$, $1, @1); }
-| MINUS expression                    { $$ = ast_with(ast_node(p->ast, AST_NEGATE, @$), $2); }
-| LPAREN expression RPAREN            { $$ = $2; }
+| NAME LPAREN arguments RPAREN
+    { $$ = ast_holding(ast_named(p->ast, AST_CALL, @$, $NAME, @NAME), $arguments); }
+| LPAREN value RPAREN                 { $$ = ast_with(ast_node(p->ast, AST_PARENTHESES, @$), $2); }
 | LPAREN components[list] COMMA expression[last] RPAREN
     { $$ = ast_holding(ast_node(p->ast, AST_VECTOR, @$), ast_append($list, $last)); }
 | LBRACKET values RBRACKET            { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
 | LBRACKET values COMMA RBRACKET      { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
 | LBRACKET RBRACKET                   { $$ = ast_node(p->ast, AST_LIST, @$); }
+| LBRACKET value FOR NAME IN expression RBRACKET
+    { $$ = ast_holding(ast_named(p->ast, AST_COMPREHENSION, @$, $NAME, @NAME),
+                       ast_pair($value, $expression)); }
+| primary[base] DOT NAME
+    { $$ = ast_select(p->ast, @$, $base,
+                      ast_named(p->ast, AST_MEMBER, span_join(@2, @NAME), $NAME, @NAME)); }
+| primary[base] LBRACKET expression RBRACKET[end]
+    { $$ = ast_select(p->ast, @$, $base,
+                      ast_with(ast_node(p->ast, AST_INDEX, span_join(@2, @end)), $expression)); }
 ;
 
 components:

@@ -2,6 +2,15 @@
 
 #include "ast/ast.h"
 
+const struct ast_operator_row ast_operators[AST_OPERATORS] = {
+    [AST_NO_OPERATOR] = {"", 0},  [AST_OR] = {"||", 1},        [AST_AND] = {"&&", 2},
+    [AST_EQUAL] = {"==", 3},      [AST_NOT_EQUAL] = {"!=", 3}, [AST_LESS] = {"<", 4},
+    [AST_LESS_EQUAL] = {"<=", 4}, [AST_GREATER] = {">", 4},    [AST_GREATER_EQUAL] = {">=", 4},
+    [AST_ADD] = {"+", 5},         [AST_SUBTRACT] = {"-", 5},   [AST_MULTIPLY] = {"*", 6},
+    [AST_DIVIDE] = {"/", 6},      [AST_MODULO] = {"%", 6},     [AST_PLUS] = {"+", 7},
+    [AST_NEGATE] = {"-", 7},      [AST_NOT] = {"!", 7},        [AST_POWER] = {"^", 8},
+};
+
 void ast_init(struct ast *a, const struct source *source, bool xml)
 {
     *a = (struct ast){.source = source, .xml = xml};
@@ -55,6 +64,51 @@ struct ast_node *ast_with(struct ast_node *parent, struct ast_node *child)
 struct ast_node *ast_holding(struct ast_node *parent, struct ast_list children)
 {
     return ast_with(parent, children.first);
+}
+
+/* Appends to a node that knows its last child. */
+static struct ast_node *extend(struct ast_node *parent, struct span span, struct ast_node *child)
+{
+    parent->last->next = child;
+    parent->last = child;
+    parent->span = parent->name_span = span;
+    return parent;
+}
+
+static struct ast_node *couple(struct ast *a, enum ast_kind kind, struct span span,
+                               struct ast_node *first, struct ast_node *second)
+{
+    struct ast_node *n = ast_holding(ast_node(a, kind, span), ast_pair(first, second));
+    n->last = second;
+    return n;
+}
+
+struct ast_node *ast_chain(struct ast *a, struct span span, struct ast_node *left,
+                           enum ast_operator operator, struct ast_node * right)
+{
+    right->operator=(uint8_t) operator;
+    int level = ast_operators[operator].level;
+    bool longer = left->kind == AST_CHAIN && ast_operators[left->last->operator].level == level;
+    return longer ? extend(left, span, right) : couple(a, AST_CHAIN, span, left, right);
+}
+
+struct ast_node *ast_prefix(struct ast *a, struct span span, enum ast_operator operator,
+                            struct ast_node * operand)
+{
+    operand->operator=(uint8_t) operator;
+    return ast_with(ast_node(a, AST_PREFIX, span), operand);
+}
+
+struct ast_node *ast_select(struct ast *a, struct span span, struct ast_node *base,
+                            struct ast_node *selector)
+{
+    bool longer = base->kind == AST_SELECT;
+    return longer ? extend(base, span, selector) : couple(a, AST_SELECT, span, base, selector);
+}
+
+struct ast_list ast_pair(struct ast_node *first, struct ast_node *second)
+{
+    return ast_append(ast_append((struct ast_list){0}, first), second);
 }
 
 struct ast_list ast_append(struct ast_list list, struct ast_node *node)

@@ -20,31 +20,82 @@ enum ast_kind {
     /* Statements.  `name` is the word at the left, `children` what they hold. */
     AST_VERSION,   /* wrt 1                    value: the number */
     AST_MODEL,     /* model classic            name: the model */
+    AST_INCLUDE,   /* include "a.wrt"          children: the string */
     AST_LET,       /* let a = v                name: a; children: v */
     AST_PARAM,     /* param a = v              name: a; children: v */
     AST_MATERIAL,  /* material a = v           name: a; children: v */
     AST_TEXTURE,   /* texture a = v            name: a; children: v */
+    AST_FN,        /* fn f(a, b = 1) = v       name: f; children: parameters, v */
+    AST_DEFINE,    /* define d(a) { ... }      name: d; children: parameters, body */
+    AST_DEFAULT,   /* default light point { }  name: light; label: point; children: members */
+    AST_ASSERT,    /* assert c, "m"            children: c, m */
+    AST_FOR,       /* for i in s { ... }       name: i; children: s, body */
+    AST_IF,        /* if c { } else { }        children: c, body, perhaps another body or AST_IF */
+    AST_USE,       /* chair(a, b = 1) { ... }  name: chair; children: arguments, perhaps a body */
     AST_BLOCK,     /* sphere ball { ... }      name: sphere; label: ball; children: members */
                    /* <surface class="Sphere"> name: surface; children: attributes, members */
     AST_PROPERTY,  /* radius: v                name: radius; children: v */
                    /* <radius>1</radius>       name: radius; children: one AST_TEXT */
     AST_ATTRIBUTE, /* class="Sphere"           name: class; children: one AST_TEXT */
 
+    /* Parts of statements and values. */
+    AST_BODY,      /* { ... }                  children: members */
+    AST_PARAMETER, /* a, b = 1                 name; children: the default, if there is one */
+    AST_ARGUMENT,  /* b = 1                    name; children: the value; one without a name is */
+                   /*                          the value itself */
+    AST_MEMBER,    /* .x                       name: x */
+    AST_INDEX,     /* [i]                      children: i */
+
     /* Values. */
-    AST_NUMBER,    /* 1.5                      number */
-    AST_ANGLE,     /* 54deg, 1rad              number as spelt; unit */
-    AST_STRING,    /* "wood.png"               text: escapes undone */
-    AST_BOOL,      /* true                     boolean */
-    AST_COLOUR,    /* #c7b852                  rgb: the six digits */
-    AST_NAME,      /* gold                     name */
-    AST_VECTOR,    /* (x, y, z)                children: components */
-    AST_LIST,      /* [a, b]                   children: items */
-    AST_CONSTRUCT, /* gold { ... }             name: gold; children: members */
-    AST_NEGATE,    /* -v                       children: v */
-    AST_TEXT,      /* XML character data       text: entities undone; exact: spelt like that */
+    AST_NUMBER,        /* 1.5                  number */
+    AST_ANGLE,         /* 54deg, 1rad          number as spelt; unit */
+    AST_STRING,        /* "wood.png"           text: escapes undone */
+    AST_BOOL,          /* true                 boolean */
+    AST_COLOUR,        /* #c7b852              rgb: the six digits */
+    AST_NAME,          /* gold                 name */
+    AST_VECTOR,        /* (x, y, z)            children: components */
+    AST_LIST,          /* [a, b]               children: items */
+    AST_COMPREHENSION, /* [v for i in s]       name: i; children: v, s */
+    AST_CONSTRUCT,     /* gold { ... }         name: gold; children: members */
+    AST_CALL,          /* f(a, b = 1)          name: f; children: arguments */
+    AST_SELECT,        /* v[1].x               children: v, then AST_MEMBERs and AST_INDEXes */
+    AST_PREFIX,        /* -v, +v, !v           children: v, with its operator */
+    AST_CHAIN,         /* a + b - c            children: operands, all but the first with the */
+                       /*                      operator before them; all of one precedence */
+    AST_CONDITIONAL,   /* c ? a : b            children: c, a, b */
+    AST_PARENTHESES,   /* (v)                  children: v */
+    AST_TEXT,          /* XML character data   text: entities undone; exact: spelt like that */
 };
 
 enum ast_unit { AST_DEGREES, AST_RADIANS };
+
+enum ast_operator {
+    AST_NO_OPERATOR,
+    AST_OR,
+    AST_AND,
+    AST_EQUAL,
+    AST_NOT_EQUAL,
+    AST_LESS,
+    AST_LESS_EQUAL,
+    AST_GREATER,
+    AST_GREATER_EQUAL,
+    AST_ADD,
+    AST_SUBTRACT,
+    AST_MULTIPLY,
+    AST_DIVIDE,
+    AST_MODULO,
+    AST_POWER,
+    AST_PLUS,
+    AST_NEGATE,
+    AST_NOT,
+    AST_OPERATORS
+};
+
+struct ast_operator_row {
+    const char *text; /* as written */
+    int level;        /* how tightly it binds; the operators of a chain share theirs */
+};
+extern const struct ast_operator_row ast_operators[AST_OPERATORS];
 
 struct ast_node {
     struct ast_node *next;     /* the next sibling */
@@ -53,16 +104,18 @@ struct ast_node {
     struct span name_span;     /* its name, or for a block without one its opening */
     struct str name;           /* borrowed from the source text */
     union {
-        struct str label; /* AST_BLOCK: borrowed; empty without one */
+        struct str label; /* AST_BLOCK, AST_DEFAULT: borrowed; empty without one */
         double number;
         struct str text;
         bool boolean;
         uint32_t rgb;
+        struct ast_node *last; /* AST_CHAIN, AST_SELECT: the last child */
     };
-    uint8_t kind; /* enum ast_kind */
-    uint8_t unit; /* AST_ANGLE: enum ast_unit */
-    bool exact;   /* AST_TEXT: the span's bytes are the text */
-    bool xml;     /* AST_BLOCK, AST_PROPERTY: an XML element */
+    uint8_t kind;     /* enum ast_kind */
+    uint8_t unit;     /* AST_ANGLE: enum ast_unit */
+    uint8_t operator; /* enum ast_operator: the one written before it, in a chain or a prefix */
+    bool exact;       /* AST_TEXT: the span's bytes are the text */
+    bool xml;         /* AST_BLOCK, AST_PROPERTY: an XML element */
 };
 
 /* Comments and blank lines, in file order; a printer finds by their spans what they stand before,
@@ -101,6 +154,17 @@ struct ast_node *ast_text(struct ast *a, enum ast_kind kind, struct span span, s
 struct ast_node *ast_with(struct ast_node *parent, struct ast_node *child);
 struct ast_node *ast_holding(struct ast_node *parent, struct ast_list children);
 
+/* left operator right: a longer chain when left is one of the same level, so that no length of it
+ * nests. */
+struct ast_node *ast_chain(struct ast *a, struct span span, struct ast_node *left,
+                           enum ast_operator operator, struct ast_node * right);
+struct ast_node *ast_prefix(struct ast *a, struct span span, enum ast_operator operator,
+                            struct ast_node * operand);
+/* A base and its AST_MEMBER or AST_INDEX: one more when the base is an AST_SELECT. */
+struct ast_node *ast_select(struct ast *a, struct span span, struct ast_node *base,
+                            struct ast_node *selector);
+
+struct ast_list ast_pair(struct ast_node *first, struct ast_node *second);
 struct ast_list ast_append(struct ast_list list, struct ast_node *node);
 /* Appends an AST_ERROR, or widens the one at the end. */
 struct ast_list ast_append_error(struct ast *a, struct ast_list list, struct span span);

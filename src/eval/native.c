@@ -216,7 +216,12 @@ static void eval_statement(struct eval *e, const struct ast_node *node)
     case AST_BLOCK:
         eval_object(e, node);
         break;
-    default: /* AST_VERSION says nothing more, AST_ERROR was reported */
+    case AST_VERSION:
+    case AST_ERROR:
+        break;
+    default:
+        diag_report(e->diag, DIAG_MISPLACED, node->span,
+                    "this statement is not evaluated by this version");
         break;
     }
 }

@@ -30,6 +30,13 @@ static struct value eval_colour(const struct ast_node *node)
     return v;
 }
 
+static struct value not_available(struct eval *e, const struct ast_node *node)
+{
+    diag_report(e->diag, DIAG_MISPLACED, node->span,
+                "expressions are not evaluated by this version");
+    return error_at(node);
+}
+
 static struct value eval_vector(struct eval *e, const struct ast_node *node)
 {
     struct value v = {.type = VALUE_VECTOR};
@@ -65,6 +72,8 @@ static struct value eval_list(struct eval *e, const struct ast_node *node)
 
 static struct value eval_negate(struct eval *e, const struct ast_node *node)
 {
+    if (node->children->operator!= AST_NEGATE)
+        return not_available(e, node);
     struct value v = eval_value(e, node->children);
     if (v.type != VALUE_NUMBER && v.type != VALUE_ANGLE && v.type != VALUE_VECTOR) {
         if (v.type != VALUE_ERROR)
@@ -113,7 +122,8 @@ static void report_not_constructible(struct eval *e, const struct ast_node *node
             str_nearest_try(&nearest, str_of(schema_kinds[k].native));
     try_defined_names(e, &nearest);
     diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
-    diag_note(entry, "the materials are: lambert phong shiny metal glass emissive; a texture is 'image'");
+    diag_note(entry,
+              "the materials are: lambert phong shiny metal glass emissive; a texture is 'image'");
 }
 
 /* `phong { ... }` makes an object; `gold { ... }` one like gold, with changes. */
@@ -150,14 +160,18 @@ static struct value eval_by_kind(struct eval *e, const struct ast_node *node)
         return eval_vector(e, node);
     case AST_LIST:
         return eval_list(e, node);
-    case AST_NEGATE:
+    case AST_PARENTHESES:
+        return eval_value(e, node->children);
+    case AST_PREFIX:
         return eval_negate(e, node);
     case AST_NAME:
         return eval_name(e, node);
     case AST_CONSTRUCT:
         return eval_construct(e, node);
-    default:
+    case AST_ERROR:
         return error_at(node);
+    default:
+        return not_available(e, node);
     }
 }
 

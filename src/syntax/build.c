@@ -56,10 +56,11 @@ struct ast_node *parser_colour(struct parser *p, struct span span, struct str di
     return ast_node(p->ast, AST_ERROR, span);
 }
 
-struct ast_node *parser_block(struct parser *p, struct span span, struct str name,
-                              struct span name_span, struct str label, struct ast_list members)
+struct ast_node *parser_block(struct parser *p, enum ast_kind kind, struct span span,
+                              struct str name, struct span name_span, struct str label,
+                              struct ast_list members)
 {
-    struct ast_node *n = ast_named(p->ast, AST_BLOCK, span, name, name_span);
+    struct ast_node *n = ast_named(p->ast, kind, span, name, name_span);
     n->label = label;
     return ast_holding(n, members);
 }

@@ -27,39 +27,61 @@ static struct span place_of_error(const struct parser *p, struct span found)
     return later ? (struct span){p->previous.end, p->previous.end} : found;
 }
 
+/* What may follow any value: expected in so many places that naming it helps nobody. */
+static bool continues_value(const char *token)
+{
+    static const char *const tokens[] = {
+        "'?'",  "'||'", "'&&'", "'=='", "'!='", "'<'", "'<='", "'>' of a comparison",
+        "'>='", "'+'",  "'-'",  "'*'",  "'/'",  "'%'", "'^'",  "'.'",
+        "'['",  "'('"};
+    for (size_t i = 0; i < sizeof tokens / sizeof *tokens; i++)
+        if (strcmp(token, tokens[i]) == 0)
+            return true;
+    return false;
+}
+
 /* Many things are expected in few places: where a value may begin, or a statement or member. */
 static size_t summarise(const char *const *expected, size_t n, const char **out)
 {
     enum { MOST = 6 };
-    for (size_t i = 0; i < n; i++)
-        out[i] = expected[i];
-    if (n <= MOST)
-        return n;
+    size_t kept = 0;
     for (size_t i = 0; i < n; i++) {
-        if (strcmp(expected[i], "string") == 0) {
+        if (strcmp(expected[i], "string") == 0 && n > MOST) {
             out[0] = "value";
             return 1;
         }
+        if (n <= MOST || !continues_value(expected[i]))
+            out[kept++] = expected[i];
     }
-    return 0;
+    return kept <= MOST ? kept : 0;
 }
 
-static bool is_reserved(const char *found)
+static bool is_keyword(struct str word)
 {
-    return strcmp(found, "reserved word") == 0;
+    static const char *const words[] = {"wrt",     "model",  "include", "param",    "let",    "fn",
+                                        "default", "define", "assert",  "for",      "in",     "if",
+                                        "else",    "true",   "false",   "material", "texture"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (str_is(word, words[i]))
+            return true;
+    return false;
 }
 
 /* How to write what was probably meant. */
 static void add_advice(const struct parser *p, struct diag_entry *e, struct str found, bool at_end,
                        const char *const *expected, size_t n)
 {
-    bool colon = false;
-    for (size_t i = 0; i < n; i++)
+    bool colon = false, name = false;
+    for (size_t i = 0; i < n; i++) {
         colon |= strcmp(expected[i], "':'") == 0;
+        name |= strcmp(expected[i], "name") == 0;
+    }
     if (at_end && p->depth > 0)
         diag_label(e, p->brackets[p->depth - 1], "this is not closed");
     else if (colon && str_is(found, "="))
         diag_note(e, "a property is written 'name: value'");
+    else if (name && is_keyword(found))
+        diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
 }
 
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
@@ -84,8 +106,6 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
     add_advice(p, e, text, at_end, shown, n);
-    if (is_reserved(found))
-        diag_note(e, "%s is reserved for a statement that this version does not read", what);
 }
 
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
@@ -94,13 +114,22 @@ void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
     diag_report(p->diag, DIAG_UNTERMINATED, opening, "%s", message);
 }
 
+/* `&` and `|` are operators only when doubled. */
+static void add_double(struct diag_entry *e, struct span span, struct str text)
+{
+    if (text.n == 1 && (*text.at == '&' || *text.at == '|'))
+        diag_did_you_mean(e, span, *text.at == '&' ? str_of("&&") : str_of("||"));
+}
+
 void parser_stray(struct parser *p, struct span span, struct str text)
 {
     if (text.n == 1 && ((unsigned char)text.at[0] < 32 || text.at[0] == 127))
         diag_report(p->diag, DIAG_SYNTAX, span, "a control character (U+%04X) cannot stand here",
                     (unsigned)(unsigned char)text.at[0]);
     else
-        diag_report(p->diag, DIAG_SYNTAX, span, "'%.*s' cannot stand here", STR_ARG(text));
+        add_double(
+            diag_report(p->diag, DIAG_SYNTAX, span, "'%.*s' cannot stand here", STR_ARG(text)),
+            span, text);
 }
 
 void parser_unknown_unit(struct parser *p, struct span span, struct str text)

@@ -10,6 +10,8 @@
 #include "grammar/native.lex.h"
 #include "grammar/xml.lex.h"
 
+#include <string.h>
+
 /* The scanners work in the source's own buffer (its two NULs are flex's end marks). */
 static bool open_scanner(struct parser *p, bool xml)
 {
@@ -57,13 +59,25 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
     return diag->errors == errors;
 }
 
+/* True when the tree takes a component that no value has, as in `wood.png`. */
+static bool has_stray_member(const struct ast_node *n)
+{
+    static const char components[] = "xyzrgb";
+    for (; n; n = n->next) {
+        bool known = n->name.n == 1 && memchr(components, *n->name.at, sizeof components - 1);
+        if ((n->kind == AST_MEMBER && !known) || has_stray_member(n->children))
+            return true;
+    }
+    return false;
+}
+
 void syntax_parse_value(const struct srcmap *sources, const struct source *source, struct ast *out)
 {
     struct diag silent;
     diag_init(&silent, sources);
     ast_init(out, source, false);
     run(source, TOKEN_START_VALUE, out, &silent);
-    if (silent.errors || !out->statements)
+    if (silent.errors || !out->statements || has_stray_member(out->statements))
         out->statements = ast_text(out, AST_STRING, (struct span){source->base, source->base},
                                    (struct str){source->text, source->n});
     diag_free(&silent);

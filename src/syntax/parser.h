@@ -73,8 +73,9 @@ void parser_version(struct parser *p, struct span span, struct span number_span,
 struct ast_node *parser_number(struct parser *p, enum ast_kind kind, struct span span,
                                struct str spelling);
 struct ast_node *parser_colour(struct parser *p, struct span span, struct str digits);
-struct ast_node *parser_block(struct parser *p, struct span span, struct str name,
-                              struct span name_span, struct str label, struct ast_list members);
+struct ast_node *parser_block(struct parser *p, enum ast_kind kind, struct span span,
+                              struct str name, struct span name_span, struct str label,
+                              struct ast_list members);
 /* The string without its escapes; unknown ones are reported. */
 struct str parser_unescape(struct parser *p, struct span span, struct str spelling);
 
@@ -97,7 +98,7 @@ bool xml_close_due(struct parser *p);
 /* ---- mistakes.c: what both scanners and the grammar report ---- */
 
 /* Names of tokens that an error may list. */
-enum { EXPECTED_MOST = 32 };
+enum { EXPECTED_MOST = 64 };
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n);
 /* What began at p->comment_begin never ends; points at its first `mark` bytes. */

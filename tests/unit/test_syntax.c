@@ -12,16 +12,45 @@
 #include <string.h>
 
 static const char *const kind_names[] = {
-    [AST_ERROR] = "error",         [AST_VERSION] = "version",
-    [AST_MODEL] = "model",         [AST_LET] = "let",
-    [AST_PARAM] = "param",         [AST_MATERIAL] = "material",
-    [AST_TEXTURE] = "texture",     [AST_BLOCK] = "block",
-    [AST_PROPERTY] = "property",   [AST_ATTRIBUTE] = "attribute",
-    [AST_NUMBER] = "number",       [AST_ANGLE] = "angle",
-    [AST_STRING] = "string",       [AST_BOOL] = "bool",
-    [AST_COLOUR] = "colour",       [AST_NAME] = "name",
-    [AST_VECTOR] = "vector",       [AST_LIST] = "list",
-    [AST_CONSTRUCT] = "construct", [AST_NEGATE] = "negate",
+    [AST_ERROR] = "error",
+    [AST_VERSION] = "version",
+    [AST_MODEL] = "model",
+    [AST_INCLUDE] = "include",
+    [AST_LET] = "let",
+    [AST_PARAM] = "param",
+    [AST_MATERIAL] = "material",
+    [AST_TEXTURE] = "texture",
+    [AST_FN] = "fn",
+    [AST_DEFINE] = "define",
+    [AST_DEFAULT] = "default",
+    [AST_ASSERT] = "assert",
+    [AST_FOR] = "for",
+    [AST_IF] = "if",
+    [AST_USE] = "use",
+    [AST_BLOCK] = "block",
+    [AST_PROPERTY] = "property",
+    [AST_ATTRIBUTE] = "attribute",
+    [AST_BODY] = "body",
+    [AST_PARAMETER] = "parameter",
+    [AST_ARGUMENT] = "argument",
+    [AST_MEMBER] = "member",
+    [AST_INDEX] = "index",
+    [AST_NUMBER] = "number",
+    [AST_ANGLE] = "angle",
+    [AST_STRING] = "string",
+    [AST_BOOL] = "bool",
+    [AST_COLOUR] = "colour",
+    [AST_NAME] = "name",
+    [AST_VECTOR] = "vector",
+    [AST_LIST] = "list",
+    [AST_COMPREHENSION] = "comprehension",
+    [AST_CONSTRUCT] = "construct",
+    [AST_CALL] = "call",
+    [AST_SELECT] = "select",
+    [AST_PREFIX] = "prefix",
+    [AST_CHAIN] = "chain",
+    [AST_CONDITIONAL] = "conditional",
+    [AST_PARENTHESES] = "parentheses",
     [AST_TEXT] = "text",
 };
 
@@ -31,13 +60,13 @@ static void write_nodes(FILE *out, const struct load *l, const struct ast_node *
     for (; n; n = n->next) {
         struct str all = srcmap_text(&l->sources, n->span);
         struct str name = srcmap_text(&l->sources, n->name_span);
-        fprintf(out, "%*s%s", depth, "", kind_names[n->kind]);
+        fprintf(out, "%*s%s%s", depth, "", ast_operators[n->operator].text, kind_names[n->kind]);
         if (n->name.n) {
             ck_assert_msg(str_equal(n->name, name), "name '%.*s' lies at '%.*s'", STR_ARG(n->name),
                           STR_ARG(name));
             fprintf(out, " %.*s", STR_ARG(n->name));
         }
-        if (n->kind == AST_BLOCK && n->label.n)
+        if ((n->kind == AST_BLOCK || n->kind == AST_DEFAULT) && n->label.n)
             fprintf(out, " %.*s", STR_ARG(n->label));
         if (n->kind == AST_TEXT || n->kind == AST_STRING)
             fprintf(out, " \"%.*s\"", STR_ARG(n->text));
@@ -62,12 +91,12 @@ static const struct {
     {"wrt 1\nmodel classic\n", "version: wrt 1\nmodel classic: model classic\n"},
     {"wrt 1 let a = -1.5e3; param b = \"x\\n\"",
      "version: wrt 1\n"
-     "let a: let a = -1.5e3\n negate: -1.5e3\n  number: 1.5e3\n"
+     "let a: let a = -1.5e3\n prefix: -1.5e3\n  -number: 1.5e3\n"
      "param b: param b = \"x\\n\"\n string \"x\n\": \"x\\n\"\n"},
     {"wrt 1 let v = ( 1 , (-2) , 3deg ) let l = [ a , true, #aabbcc, ]",
      "version: wrt 1\n"
      "let v: let v = ( 1 , (-2) , 3deg )\n vector: ( 1 , (-2) , 3deg )\n"
-     "  number: 1\n  negate: -2\n   number: 2\n  angle: 3deg\n"
+     "  number: 1\n  parentheses: (-2)\n   prefix: -2\n    -number: 2\n  angle: 3deg\n"
      "let l: let l = [ a , true, #aabbcc, ]\n list: [ a , true, #aabbcc, ]\n"
      "  name a: a\n  bool: true\n  colour: #aabbcc\n"},
     {"wrt 1 sphere ball { radius: 1, material : gold { texture: t } } // end\n",
@@ -77,6 +106,52 @@ static const struct {
      " property material: material : gold { texture: t }\n"
      "  construct gold: gold { texture: t }\n"
      "   property texture: texture: t\n    name t: t\n"},
+    {"wrt 1 include \"a\\tb\" fn f(a, b = 1,) = a fn g() = 1",
+     "version: wrt 1\n"
+     "include: include \"a\\tb\"\n string \"a\tb\": \"a\\tb\"\n"
+     "fn f: fn f(a, b = 1,) = a\n parameter a: a\n parameter b: b = 1\n  number: 1\n"
+     " name a: a\n"
+     "fn g: fn g() = 1\n number: 1\n"},
+    {"wrt 1 define d() { r: 1 } default light point { } assert a, \"m\" d() d(1, a = 2) { }",
+     "version: wrt 1\n"
+     "define d: define d() { r: 1 }\n body: { r: 1 }\n  property r: r: 1\n   number: 1\n"
+     "default light point: default light point { }\n"
+     "assert: assert a, \"m\"\n name a: a\n string \"m\": \"m\"\n"
+     "use d: d()\n"
+     "use d: d(1, a = 2) { }\n number: 1\n argument a: a = 2\n  number: 2\n body: { }\n"},
+    {"wrt 1 for i in s { a() } if c { } else if d { } else { } if e { }",
+     "version: wrt 1\n"
+     "for i: for i in s { a() }\n name s: s\n body: { a() }\n  use a: a()\n"
+     "if: if c { } else if d { } else { }\n name c: c\n body: { }\n"
+     " if: if d { } else { }\n  name d: d\n  body: { }\n  body: { }\n"
+     "if: if e { }\n name e: e\n body: { }\n"},
+    {"1 + 2 - 3 * 4 ^ 5 ^ -6",
+     "chain: 1 + 2 - 3 * 4 ^ 5 ^ -6\n number: 1\n +number: 2\n"
+     " -chain: 3 * 4 ^ 5 ^ -6\n  number: 3\n"
+     "  *chain: 4 ^ 5 ^ -6\n   number: 4\n   ^chain: 5 ^ -6\n    number: 5\n"
+     "    ^prefix: -6\n     -number: 6\n"},
+    {"-2 ^ 2 == 1 != !a",
+     "chain: -2 ^ 2 == 1 != !a\n prefix: -2 ^ 2\n  -chain: 2 ^ 2\n   number: 2\n   ^number: 2\n"
+     " ==number: 1\n !=prefix: !a\n  !name a: a\n"},
+    {"a - (b - c) - d",
+     "chain: a - (b - c) - d\n name a: a\n -parentheses: (b - c)\n  chain: b - c\n"
+     "   name b: b\n   -name c: c\n -name d: d\n"},
+    {"a < b && c || +d % 2",
+     "chain: a < b && c || +d % 2\n chain: a < b && c\n  chain: a < b\n   name a: a\n   <name b: "
+     "b\n"
+     "  &&name c: c\n ||chain: +d % 2\n  prefix: +d\n   +name d: d\n  %number: 2\n"},
+    {"a ? b : c ? d : -e",
+     "conditional: a ? b : c ? d : -e\n name a: a\n name b: b\n"
+     " conditional: c ? d : -e\n  name c: c\n  name d: d\n  prefix: -e\n   -name e: e\n"},
+    {"-f(1, g { }, n = [x for x in s])[0].x ^ 2",
+     "prefix: -f(1, g { }, n = [x for x in s])[0].x ^ 2\n"
+     " -chain: f(1, g { }, n = [x for x in s])[0].x ^ 2\n"
+     "  select: f(1, g { }, n = [x for x in s])[0].x\n"
+     "   call f: f(1, g { }, n = [x for x in s])\n    number: 1\n    construct g: g { }\n"
+     "    argument n: n = [x for x in s]\n     comprehension x: [x for x in s]\n"
+     "      name x: x\n      name s: s\n"
+     "   index: [0]\n    number: 0\n   member x: .x\n  ^number: 2\n"},
+    {"(gold { })", "parentheses: (gold { })\n construct gold: gold { }\n"},
     {"wrt 1 material m = lambert {} texture t = image { file: \"\" } mesh{}",
      "version: wrt 1\n"
      "material m: material m = lambert {}\n construct lambert: lambert {}\n"
@@ -101,7 +176,13 @@ static const struct {
 START_TEST(tree_of_text)
 {
     struct load l;
-    ck_assert_msg(load_parse(&l, trees[_i].text), "%s", load_first(&l));
+    bool scene = strncmp(trees[_i].text, "wrt", 3) == 0 || *trees[_i].text == '<';
+    if (scene) {
+        ck_assert_msg(load_parse(&l, trees[_i].text), "%s", load_first(&l));
+    } else {
+        load_text(&l, "value", trees[_i].text);
+        syntax_parse_value(&l.sources, l.source, &l.ast);
+    }
     char *tree = tree_of(&l);
     ck_assert_str_eq(tree, trees[_i].tree);
     /* what the scanner changes in the text while it reads is put back */
@@ -226,12 +307,15 @@ static const struct {
     enum ast_kind kind;
 } defines[] = {
     {"1", AST_NUMBER},
-    {"-1", AST_NEGATE},
+    {"-1", AST_PREFIX},
     {"(1, 2)", AST_VECTOR},
     {"[1]", AST_LIST},
     {"gold", AST_NAME},
     {"\"a\"", AST_STRING},
     {"wood.png", AST_STRING},
+    {"../1/wood.png", AST_STRING},
+    {"a[wood.png]", AST_STRING},
+    {"a.x", AST_SELECT},
     {"", AST_STRING},
     {"1 2", AST_STRING},
     {"2x", AST_STRING},
