@@ -19,7 +19,7 @@ awk -v order="$order" '
     function layer_of(path)
     {
         if (path ~ /^grammar\//)
-            return "syntax"
+            return path ~ /\/wrl\./ ? "convert" : "syntax"
         sub(/^src\//, "", path)
         return path ~ /\// ? substr(path, 1, index(path, "/") - 1) : ""
     }

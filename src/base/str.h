@@ -29,6 +29,12 @@ static inline bool str_is(struct str a, const char *z)
     return str_equal(a, str_of(z));
 }
 
+static inline bool str_begins(struct str s, const char *z)
+{
+    size_t n = strlen(z);
+    return s.n >= n && memcmp(s.at, z, n) == 0;
+}
+
 /* ASCII letters compared without case. */
 bool str_equal_nocase(struct str a, struct str b);
 

@@ -32,18 +32,10 @@ static int worse(int a, int b)
     return a == DIAG_EXIT_INPUT || b == DIAG_EXIT_INPUT ? DIAG_EXIT_INPUT : a > b ? a : b;
 }
 
-int command_check(int argc, char **argv)
+int command_check(const struct options *o)
 {
-    struct options o;
-    enum options_result result = options_read(argc, argv, FOR_CHECK, &o);
-    int status = result == OPTIONS_HELP      ? command_help(FOR_CHECK)
-                 : result == OPTIONS_VERSION ? command_version()
-                 : result == OPTIONS_WRONG   ? EXIT_USAGE
-                 : o.scenes.n                ? 0
-                                             : usage_error("check: no scene given");
-    if (result == OPTIONS_RUN)
-        for (size_t i = 0; i < o.scenes.n; i++)
-            status = worse(status, check_scene(o.scenes.at[i], &o));
-    options_free(&o);
+    int status = o->scenes.n ? 0 : usage_error("check: no scene given");
+    for (size_t i = 0; i < o->scenes.n; i++)
+        status = worse(status, check_scene(o->scenes.at[i], o));
     return status;
 }

@@ -216,7 +216,7 @@ static int run_steps(struct run *r)
     return status;
 }
 
-static int render_with(const struct options *o)
+int command_render(const struct options *o)
 {
     if (o->scenes.n != 1)
         return o->scenes.n ? usage_error("render takes one scene, but %zu are given", o->scenes.n)
@@ -228,17 +228,5 @@ static int render_with(const struct options *o)
     lower_free(&r.lowered);
     frontend_free(&r.frontend);
     free(by_default);
-    return status;
-}
-
-int command_render(int argc, char **argv)
-{
-    struct options o;
-    enum options_result result = options_read(argc, argv, FOR_RENDER, &o);
-    int status = result == OPTIONS_HELP      ? command_help(FOR_RENDER)
-                 : result == OPTIONS_VERSION ? command_version()
-                 : result == OPTIONS_WRONG   ? EXIT_USAGE
-                                             : render_with(&o);
-    options_free(&o);
     return status;
 }

@@ -1,12 +1,11 @@
-/* The commands; each reads its own arguments and returns the exit status. */
+/* The commands; each runs with the options it was given and returns the exit status. */
 #ifndef WRT_CMD_COMMANDS_H
 #define WRT_CMD_COMMANDS_H
 
-int command_render(int argc, char **argv);
-int command_check(int argc, char **argv);
+#include "cmd/options.h"
 
-/* Prints `wrt --version`'s line, or help for one command; returns 0. */
-int command_version(void);
-int command_help(unsigned command);
+int command_render(const struct options *o);
+int command_check(const struct options *o);
+int command_uv(const struct options *o);
 
 #endif

@@ -17,26 +17,48 @@ static const char *display_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
-/* The scene's text as a source; NULL after reporting. */
+void frontend_init(struct frontend *f)
+{
+    *f = (struct frontend){0};
+    diag_init(&f->diag, &f->sources);
+}
+
+static const struct source *add_source(struct frontend *f, const char *path, char *text, size_t n)
+{
+    const struct source *s = srcmap_add(&f->sources, display_name(path), text, n);
+    if (!s)
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "'%s' is too large",
+                    display_name(path));
+    return s;
+}
+
+static bool read_bytes(struct frontend *f, const char *path, char **text, size_t *n)
+{
+    const char *reason = file_read(path, text, n);
+    if (reason)
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
+                    display_name(path), reason);
+    return !reason;
+}
+
+const struct source *frontend_read(struct frontend *f, const char *path)
+{
+    char *text;
+    size_t n;
+    return read_bytes(f, path, &text, &n) ? add_source(f, path, text, n) : NULL;
+}
+
+/* The scene's text, made UTF-8, as a source; NULL after reporting. */
 static const struct source *read_scene(struct frontend *f, const char *path)
 {
     char *text;
     size_t n;
-    const char *reason = file_read(path, &text, &n);
-    if (reason) {
-        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
-                    display_name(path), reason);
+    if (!read_bytes(f, path, &text, &n))
         return NULL;
-    }
     struct encoding_problem problem;
     bool right = syntax_decode(&text, &n, &problem);
-    const struct source *s = srcmap_add(&f->sources, display_name(path), text, n);
-    if (!s) {
-        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "'%s' is too large",
-                    display_name(path));
-        return NULL;
-    }
-    if (right)
+    const struct source *s = add_source(f, path, text, n);
+    if (right || !s)
         return s;
     uint32_t at = s->base + (uint32_t)problem.offset;
     diag_report(&f->diag, problem.code, (struct span){at, at + 1}, "%s", problem.message);
@@ -85,8 +107,7 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)
 {
     double start = thread_seconds();
-    *f = (struct frontend){0};
-    diag_init(&f->diag, &f->sources);
+    frontend_init(f);
     const struct source *s = read_scene(f, path);
     if (s) {
         bool parsed = syntax_parse(s, &f->ast, &f->diag);

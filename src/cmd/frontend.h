@@ -16,7 +16,12 @@ struct frontend {
     double seconds;
 };
 
-/* Loads the scene; true when it may be lowered.  Everything found is in f->diag; free with
+void frontend_init(struct frontend *f);
+
+/* A file that is no scene as a source, byte by byte; NULL after reporting. */
+const struct source *frontend_read(struct frontend *f, const char *path);
+
+/* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag; free with
  * frontend_free in any case. */
 bool frontend_load(struct frontend *f, const char *path, const struct options *options);
 void frontend_free(struct frontend *f);

@@ -22,36 +22,49 @@
 static const struct command {
     const char *name;
     unsigned bit;
-    int (*run)(int argc, char **argv);
+    int (*run)(const struct options *o);
     const char *usage, *summary;
 } commands[] = {
     {"render", FOR_RENDER, command_render, "render SCENE [options]", "render a scene to a picture"},
     {"check", FOR_CHECK, command_check, "check SCENE... [options]",
      "parse and validate scenes; opens no texture or mesh"},
+    {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
+     "make a UV list of a VRML 2.0 file's texture coordinates"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
-int command_version(void)
+static int print_version(void)
 {
     printf("wrt %s\n", PACKAGE_VERSION);
     return 0;
 }
 
-int command_help(unsigned bits)
+static int print_help(const struct command *c)
 {
-    if (bits == (FOR_RENDER | FOR_CHECK)) {
+    if (c) {
+        printf("usage: wrt %s\n\n%s\n\noptions:\n", c->usage, c->summary);
+    } else {
         puts("usage: wrt [COMMAND] SCENE [options]\n\ncommands:");
         for (int i = 0; i < COMMANDS; i++)
             printf("  %-28s %s\n", commands[i].usage, commands[i].summary);
-        puts("\n'wrt SCENE' is short for 'wrt render SCENE'.  Options may stand anywhere.\n\noptions:");
-    } else {
-        for (int i = 0; i < COMMANDS; i++)
-            if (commands[i].bit == bits)
-                printf("usage: wrt %s\n\n%s\n\noptions:\n", commands[i].usage, commands[i].summary);
+        puts("\n'wrt SCENE' is short for 'wrt render SCENE'.  Options may stand "
+             "anywhere.\n\noptions:");
     }
-    options_help(bits, stdout);
+    options_help(c ? c->bit : FOR_ALL, stdout);
     puts("\nsee wrt(1)");
     return 0;
+}
+
+static int run_command(const struct command *c, int argc, char **argv)
+{
+    struct options o;
+    enum options_result result = options_read(argc, argv, c->bit, &o);
+    int status = result == OPTIONS_HELP      ? print_help(c)
+                 : result == OPTIONS_VERSION ? print_version()
+                 : result == OPTIONS_WRONG   ? EXIT_USAGE
+                                             : c->run(&o);
+    options_free(&o);
+    return status;
 }
 
 static const struct command *find_command(const char *name)
@@ -86,17 +99,14 @@ static int run_without_command(int argc, char **argv)
     enum options_result result = options_read(argc, argv, FOR_RENDER, &o);
     size_t operands = o.scenes.n;
     const char *first = operands ? o.scenes.at[0] : NULL;
+    int status = result == OPTIONS_HELP                         ? print_help(NULL)
+                 : result == OPTIONS_VERSION                    ? print_version()
+                 : first && looks_like_command(first, operands) ? unknown_command(first)
+                 : result == OPTIONS_WRONG                      ? EXIT_USAGE
+                 : operands                                     ? command_render(&o)
+                            : usage_error("no scene given; 'wrt --help' says more");
     options_free(&o);
-    if (result == OPTIONS_HELP)
-        return command_help(FOR_RENDER | FOR_CHECK);
-    if (result == OPTIONS_VERSION)
-        return command_version();
-    if (first && looks_like_command(first, operands))
-        return unknown_command(first);
-    if (result == OPTIONS_WRONG)
-        return EXIT_USAGE;
-    return operands ? command_render(argc, argv)
-                    : usage_error("no scene given; 'wrt --help' says more");
+    return status;
 }
 
 /* What was printed must have arrived; returns the exit status. */
@@ -116,5 +126,5 @@ int main(int argc, char **argv)
         return close_output(run_without_command(argc, argv));
     for (int i = first; i + 1 < argc; i++) /* the command's name is no operand */
         argv[i] = argv[i + 1];
-    return close_output(c->run(argc - 1, argv));
+    return close_output(run_command(c, argc - 1, argv));
 }

@@ -9,12 +9,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { FOR_RENDER = 1, FOR_CHECK = 2 };
+/* The commands, as bits of the options they take. */
+enum { FOR_RENDER = 1, FOR_CHECK = 2, FOR_UV = 4, FOR_ALL = 7 };
+
+/* Those that read a scene. */
+enum { FOR_SCENES = FOR_RENDER | FOR_CHECK };
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
 struct options {
-    VEC(const char *) scenes;
+    VEC(const char *) scenes;  /* or other files to read */
     VEC(const char *) defines; /* NAME=VALUE */
     const char *output;        /* or NULL */
     uint32_t width, height;    /* 0: the scene's */
@@ -29,7 +33,7 @@ struct options {
     bool jitter, brute_force, no_skip, quiet, verbose;
 };
 
-/* Exit statuses of wrong usage. */
+/* The exit status of wrong usage. */
 enum { EXIT_USAGE = 2 };
 
 /* What the command line asks for. */

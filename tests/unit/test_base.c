@@ -2,6 +2,7 @@
 #include "config.h"
 
 #include "base/arena.h"
+#include "base/buffer.h"
 #include "base/file.h"
 #include "base/map.h"
 #include "base/num.h"
@@ -621,6 +622,38 @@ START_TEST(file_resolved)
 }
 END_TEST
 
+START_TEST(buffer_grows)
+{
+    struct buffer b = {0};
+    buffer_add(&b, "", 0);
+    ck_assert_uint_eq(b.n, 0);
+    buffer_puts(&b, "ab");
+    for (int i = 0; i < 10; i++) /* from itself, while it moves */
+        buffer_add(&b, b.at, b.n);
+    ck_assert_uint_eq(b.n, 2048);
+    for (size_t i = 0; i < b.n; i++)
+        ck_assert_int_eq(b.at[i], i % 2 ? 'b' : 'a');
+    b.n = 0;
+    buffer_printf(&b, "%s %d", "x", 12);
+    buffer_printf(&b, "%s", "");
+    buffer_str(&b, (struct str){" yz", 2});
+    buffer_number(&b, -0.1);
+    ck_assert(str_is((struct str){b.at, b.n}, "x 12 y-0.1"));
+    buffer_free(&b);
+    ck_assert_ptr_null(b.at);
+}
+END_TEST
+
+START_TEST(string_begins)
+{
+    ck_assert(str_begins(str_of("abc"), "ab"));
+    ck_assert(str_begins(str_of("abc"), "abc"));
+    ck_assert(str_begins(str_of("abc"), ""));
+    ck_assert(!str_begins(str_of("abc"), "abcd"));
+    ck_assert(!str_begins(str_of("abc"), "b"));
+}
+END_TEST
+
 Suite *base_suite(void)
 {
     Suite *s = suite_create("base");
@@ -639,6 +672,7 @@ Suite *base_suite(void)
     tcase_add_test(t, string_distance_of_long_names);
     tcase_add_loop_test(t, string_nearest, 0, COUNT(nearest));
     tcase_add_test(t, string_trim);
+    tcase_add_test(t, string_begins);
     tcase_add_loop_test(t, utf8_valid, 0, COUNT(utf8));
     tcase_add_test(t, utf8_every_code_point);
     suite_add_tcase(s, t);
@@ -646,6 +680,7 @@ Suite *base_suite(void)
     t = tcase_create("memory");
     tcase_add_test(t, arena_allocations);
     tcase_add_test(t, map_of_many);
+    tcase_add_test(t, buffer_grows);
     suite_add_tcase(s, t);
 
     t = tcase_create("places");
