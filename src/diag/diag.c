@@ -25,6 +25,7 @@ static void entry_free(struct diag_entry *e)
     vec_free(&e->labels);
     vec_free(&e->notes);
     vec_free(&e->fixits);
+    vec_free(&e->frames);
 }
 
 void diag_free(struct diag *d)
@@ -33,6 +34,7 @@ void diag_free(struct diag *d)
         entry_free(d->entries.at[i]);
     entry_free(&d->spare);
     vec_free(&d->entries);
+    map_free(&d->framed);
     arena_free(&d->arena);
 }
 
@@ -95,10 +97,48 @@ static void count(struct diag *d, const struct diag_rule *rule)
         d->exit = rule->exit;
 }
 
+/* Code and place as a key; they have no padding. */
+struct key {
+    uint32_t code, begin, end;
+};
+
+static struct str key_text(const struct key *k)
+{
+    return (struct str){(const char *)k, sizeof *k};
+}
+
+/* A finding that only repeats one of another round of a loop or another use is counted; its
+ * details go where nobody reads them. */
+static struct diag_entry *find_repeated(struct diag *d, const struct key *k)
+{
+    struct diag_entry *first = d->frame ? map_get(&d->framed, key_text(k)) : NULL;
+    if (!first)
+        return NULL;
+    first->repeats++;
+    entry_free(&d->spare);
+    d->spare = (struct diag_entry){.owner = d};
+    return &d->spare;
+}
+
+static void remember_frame(struct diag *d, struct diag_entry *e, const struct key *k)
+{
+    if (!d->frame || e == &d->spare)
+        return;
+    struct key *kept = arena_alloc(&d->arena, sizeof *kept);
+    *kept = *k;
+    map_set(&d->framed, key_text(kept), e);
+    diag_add_frames(e, d->frame);
+}
+
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...)
 {
-    struct diag_entry *e = take_entry(d);
+    const struct key key = {(uint32_t)code, span.begin, span.end};
+    count(d, &diag_rules[code]);
+    struct diag_entry *e = find_repeated(d, &key);
+    if (e)
+        return e;
+    e = take_entry(d);
     va_list args;
     va_start(args, format);
     const char *message = e == &d->spare ? "" : format_text(d, format, args);
@@ -109,7 +149,7 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
                              .message = message,
                              .owner = d,
                              .order = d->entries.n};
-    count(d, &diag_rules[code]);
+    remember_frame(d, e, &key);
     return e;
 }
 

@@ -1,8 +1,8 @@
 /* Diagnostics: collected while stages run, printed together in file order.
  *
- *     struct diag_entry *e = diag_report(diag, DIAG_UNKNOWN_PROPERTY, span, "unknown property '%.*s'", ...);
- *     diag_note(e, "a sphere has: ...");
- *     diag_fix(e, span, DIAG_FIX_SAFE, "radius", "did you mean 'radius'?");
+ *     struct diag_entry *e = diag_report(diag, DIAG_UNKNOWN_PROPERTY, span, "unknown property
+ * '%.*s'", ...); diag_note(e, "a sphere has: ..."); diag_fix(e, span, DIAG_FIX_SAFE, "radius", "did
+ * you mean 'radius'?");
  *
  * Message style: lower case, no full stop, names in single quotes, the reason and what was done;
  * "cannot" (never will) or "could not" (this time). */
@@ -10,6 +10,7 @@
 #define WRT_DIAG_DIAG_H
 
 #include "base/arena.h"
+#include "base/map.h"
 #include "base/srcmap.h"
 #include "base/vec.h"
 
@@ -48,6 +49,22 @@ struct diag_fixit {
     enum diag_fix_kind kind;
 };
 
+/* How evaluation came to where it stands: includes, calls, uses of templates, rounds of loops. */
+enum diag_frame_kind {
+    DIAG_FRAME_INCLUDE, /* at: the path as written */
+    DIAG_FRAME_CALL,    /* at: the function's name in the call */
+    DIAG_FRAME_USE,     /* at: the template's name in its use */
+    DIAG_FRAME_ROUND,   /* at: the variable of the loop */
+};
+
+struct diag_frame {
+    const struct diag_frame *parent; /* the next outer one, or NULL */
+    struct span at;
+    enum diag_frame_kind kind;
+    double
+        number; /* DIAG_FRAME_ROUND: the variable's value, or the round's number when it is none */
+};
+
 struct diag_entry {
     enum diag_code code;
     enum diag_level level;
@@ -56,6 +73,8 @@ struct diag_entry {
     VEC(struct diag_label) labels; /* secondary places */
     VEC(const char *) notes;
     VEC(struct diag_fixit) fixits;
+    VEC(struct diag_label) frames; /* the stack it was found in, innermost first */
+    size_t repeats;                /* how often it was found again in other rounds or uses */
     struct diag *owner;
     size_t order; /* of report, to keep sorting stable */
 };
@@ -66,7 +85,9 @@ enum { DIAG_LIMIT = 1000 };
 struct diag {
     const struct srcmap *sources; /* borrowed */
     struct arena arena;
+    const struct diag_frame *frame; /* borrowed: set by whoever evaluates, kept in words */
     VEC(struct diag_entry *) entries;
+    struct map framed; /* place and code to the first entry found there inside a frame */
     size_t dropped;
     size_t errors, warnings; /* all, dropped ones too */
     enum diag_exit exit;     /* what the errors so far ask for: INPUT wins over RESOURCE */
@@ -77,7 +98,8 @@ void diag_init(struct diag *d, const struct srcmap *sources);
 void diag_free(struct diag *d);
 
 /* Reports; the entry returned is valid until diag_free and takes labels, notes and fix-its.  An
- * unknown span ({0, 0}) means no place in a text. */
+ * unknown span ({0, 0}) means no place in a text.  Inside a frame the same finding at the same
+ * place is kept once and counted. */
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...) __attribute__((format(printf, 4, 5)));
 
@@ -92,6 +114,9 @@ static inline bool diag_full(const struct diag *d)
 {
     return d->dropped > 0;
 }
+
+/* Tells the frames in words (used by diag_report). */
+void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost);
 
 /* Adds the note "did you mean 'x'?" and a fix-it when `meant` is not empty. */
 void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant);

@@ -18,19 +18,17 @@ static json_t *place_of(const struct diag *d, struct span span)
     if (!begin.source || !end.source)
         return json_null();
     return json_pack("{s:o, s:i, s:i, s:i, s:i, s:I, s:I}", "file", text_of(begin.source->name),
-                     "line", begin.line, "column", begin.column, "end_line", end.line,
-                     "end_column", end.column, "byte",
-                     (json_int_t)(span.begin - begin.source->base), "end_byte",
+                     "line", begin.line, "column", begin.column, "end_line", end.line, "end_column",
+                     end.column, "byte", (json_int_t)(span.begin - begin.source->base), "end_byte",
                      (json_int_t)(span.end - begin.source->base));
 }
 
-static json_t *labels_of(const struct diag *d, const struct diag_entry *e)
+static json_t *labels_of(const struct diag *d, const struct diag_label *labels, size_t n)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < e->labels.n; i++)
-        json_array_append_new(list,
-                              json_pack("{s:o, s:o}", "place", place_of(d, e->labels.at[i].span),
-                                        "message", text_of(e->labels.at[i].text)));
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, json_pack("{s:o, s:o}", "place", place_of(d, labels[i].span),
+                                              "message", text_of(labels[i].text)));
     return list;
 }
 
@@ -39,10 +37,9 @@ static json_t *fixits_of(const struct diag *d, const struct diag_entry *e)
     json_t *list = json_array();
     for (size_t i = 0; i < e->fixits.n; i++) {
         const struct diag_fixit *f = &e->fixits.at[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:s}", "place", place_of(d, f->span), "replacement",
-                            text_of(f->text), "applicability",
-                            f->kind == DIAG_FIX_SAFE ? "safe" : "maybe"));
+        json_array_append_new(list, json_pack("{s:o, s:o, s:s}", "place", place_of(d, f->span),
+                                              "replacement", text_of(f->text), "applicability",
+                                              f->kind == DIAG_FIX_SAFE ? "safe" : "maybe"));
     }
     return list;
 }
@@ -54,10 +51,11 @@ void diag_print_json(const struct diag *d, const struct diag_entry *e, FILE *out
     for (size_t i = 0; i < e->notes.n; i++)
         json_array_append_new(notes, text_of(e->notes.at[i]));
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "level", diag_level_name(e->level), "code",
-        rule->code, "slug", rule->slug, "message", text_of(e->message), "place",
-        place_of(d, e->span), "labels", labels_of(d, e), "notes", notes, "fixits",
-        fixits_of(d, e));
+        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:I}", "level", diag_level_name(e->level),
+        "code", rule->code, "slug", rule->slug, "message", text_of(e->message), "place",
+        place_of(d, e->span), "labels", labels_of(d, e->labels.at, e->labels.n), "notes", notes,
+        "fixits", fixits_of(d, e), "frames", labels_of(d, e->frames.at, e->frames.n), "repeats",
+        (json_int_t)e->repeats);
     if (!object || json_dumpf(object, out, JSON_COMPACT) != 0)
         fputs("{}", out);
     putc('\n', out);

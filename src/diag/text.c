@@ -143,12 +143,38 @@ static void put_snippet(FILE *out, const struct location *at, struct span span,
         put_fixits(out, e, at, w, s);
 }
 
+/* "file:line:column" */
+static void put_position(FILE *out, const struct location *at)
+{
+    fprintf(out, "%s:%u:%u", at->source->name, at->line, at->column);
+}
+
 static void put_place(FILE *out, const struct location *at)
 {
-    if (at->source)
-        fprintf(out, "%s:%u:%u: ", at->source->name, at->line, at->column);
+    if (!at->source)
+        fputs("wrt", out);
     else
-        fputs("wrt: ", out);
+        put_position(out, at);
+    fputs(": ", out);
+}
+
+/* The stack: a line for each frame. */
+static void put_frames(FILE *out, const struct diag *d, const struct diag_entry *e,
+                       const struct style *note)
+{
+    for (size_t i = 0; i < e->frames.n; i++) {
+        const struct diag_label *f = &e->frames.at[i];
+        struct location at = srcmap_locate(d->sources, f->span.begin);
+        fprintf(out, "%snote:%s %s", note->level, note->plain, f->text);
+        if (at.source) {
+            fputs(" at ", out);
+            put_position(out, &at);
+        }
+        putc('\n', out);
+    }
+    if (e->repeats)
+        fprintf(out, "%snote:%s the same was found %zu more time%s\n", note->level, note->plain,
+                e->repeats, e->repeats == 1 ? "" : "s");
 }
 
 void diag_print_text(const struct diag *d, const struct diag_entry *e, bool colour, FILE *out)
@@ -172,4 +198,5 @@ void diag_print_text(const struct diag *d, const struct diag_entry *e, bool colo
     }
     for (size_t i = 0; i < e->notes.n; i++)
         fprintf(out, "%snote:%s %s\n", note.level, note.plain, e->notes.at[i]);
+    put_frames(out, d, e, &note);
 }

@@ -115,6 +115,7 @@ static bool as_file(const struct target *t, const struct value *v)
     if (v->type != VALUE_STRING)
         return false;
     t->out->string = v->string;
+    t->out->spelt = v->span.begin;
     if (!v->string.n)
         diag_report(t->e->diag, DIAG_WRONG_TYPE, v->span,
                     "'%s' takes a file name, but this is empty", t->prop->native);

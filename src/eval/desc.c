@@ -2,6 +2,11 @@
 
 #include "eval/desc.h"
 
+#include <assert.h>
+
+static_assert(sizeof(struct desc_prop) == 64 && sizeof(struct desc_object) <= 64,
+              "scenes hold them by the million");
+
 void desc_free(struct desc *d)
 {
     vec_free(&d->textures);

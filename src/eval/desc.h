@@ -4,42 +4,51 @@
 #define WRT_EVAL_DESC_H
 
 #include "base/arena.h"
-#include "base/srcmap.h"
 #include "base/vec.h"
-#include "math/vec3.h"
+#include "diag/diag.h"
+#include "math/transform.h"
 #include "schema/schema.h"
 
 struct desc_value {
     struct span span;
-    struct span second; /* TYPE_SIZE in XML: of the second leaf */
-    uint32_t n;         /* numbers or points given */
+    uint32_t n; /* numbers or points given */
     union {
-        double number[3];           /* numbers, vectors, colours; degrees for angles */
-        struct vec3 *points;        /* TYPE_POINTS */
-        struct str string;          /* TYPE_FILE */
+        double number[3];    /* numbers, vectors, colours; degrees for angles */
+        struct vec3 *points; /* TYPE_POINTS */
+        struct {             /* TYPE_FILE */
+            struct str string;
+            uint32_t spelt; /* a place in the text that spells it: relative paths start there */
+        };
         unsigned word;              /* TYPE_WORD: its number */
         struct desc_object *object; /* TYPE_MATERIAL, TYPE_TEXTURE, TYPE_SURFACE */
+        struct {                    /* TYPE_SIZE */
+            double size[2];         /* as number */
+            struct span second;     /* XML: of the second leaf */
+        };
     };
 };
 
 struct desc_prop {
     struct desc_prop *next; /* in the order given */
-    enum schema_prop_id id;
-    uint32_t leaves;        /* XML: bit n for each leaf of the property that is given */
-    bool broken;            /* the value was reported already */
-    bool inherited;         /* from the object this one was made from, which answers for it */
     struct span name_span;
+    uint8_t id;     /* enum schema_prop_id */
+    uint8_t leaves; /* XML: bit n for each leaf of the property that is given */
+    bool broken;    /* the value was reported already */
+    bool inherited; /* from another object, which answers for it */
     struct desc_value value;
 };
 
+/* What scenes hold by the million: small. */
 struct desc_object {
     enum schema_kind kind;
-    uint32_t number; /* among the description's textures or materials */
-    bool xml;        /* spelt in XML: messages use its names */
-    bool broken;     /* an error was reported inside, so absences mean nothing */
+    uint32_t number;  /* among the description's textures or materials */
     struct span span; /* the words that open it */
     struct str name;  /* label or id; may be empty */
     struct desc_prop *props;
+    const struct affine *place;     /* surfaces, lights: of the groups around it; NULL: identity */
+    const struct diag_frame *frame; /* how evaluation came to it; NULL: straight */
+    bool xml;                       /* spelt in XML: messages use its names */
+    bool broken;                    /* an error was reported inside, so absences mean nothing */
 };
 
 enum desc_model { MODEL_CLASSIC, MODEL_MODERN };
@@ -48,7 +57,7 @@ struct desc {
     struct arena arena;
     enum desc_model model;
     bool xml;
-    bool incomplete; /* something at the top was not understood, so absences mean nothing */
+    bool incomplete;   /* something at the top was not understood, so absences mean nothing */
     struct span start; /* the scene's first bytes, for what is missing altogether */
     struct desc_object *camera; /* or NULL */
     VEC(struct desc_object *) textures, materials, lights, surfaces;

@@ -121,6 +121,7 @@ static bool read_word(struct eval *e, enum schema_prop_id id, const struct ast_n
 static bool read_file(struct eval *e, const struct ast_node *leaf, struct desc_value *out)
 {
     out->string = leaf->children->text;
+    out->spelt = leaf->children->span.begin;
     if (out->string.n)
         return true;
     diag_report(e->diag, DIAG_WRONG_TYPE, leaf->span, "'%.*s' takes a file name",

@@ -103,9 +103,9 @@ static void eval_property(struct eval *e, struct desc_object *o, const struct as
 static void inherit(struct eval *e, struct desc_object *o, const struct desc_object *base)
 {
     for (const struct desc_prop *p = base->props; p; p = p->next) {
-        if (desc_get(o, p->id))
+        if (desc_get(o, (enum schema_prop_id)p->id))
             continue;
-        struct desc_prop *copy = object_prop(e, o, p->id, 0, p->name_span);
+        struct desc_prop *copy = object_prop(e, o, (enum schema_prop_id)p->id, 0, p->name_span);
         struct desc_prop *next = copy->next;
         *copy = *p;
         copy->next = next;

@@ -32,7 +32,7 @@ struct desc_prop *object_prop(struct eval *e, struct desc_object *o, enum schema
     struct desc_prop **end = NULL, *p = find(o, id, &end);
     if (!p) {
         *end = p = arena_zalloc(&e->out->arena, 1, sizeof *p);
-        p->id = id;
+        p->id = (uint8_t)id;
         p->name_span = name_span;
     } else if (p->leaves >> leaf & 1) {
         struct str name = o->xml ? schema_leaf(id, leaf) : schema_prop_name(id, false);
@@ -42,7 +42,7 @@ struct desc_prop *object_prop(struct eval *e, struct desc_object *o, enum schema
         o->broken = true;
         return NULL;
     }
-    p->leaves |= 1u << leaf;
+    p->leaves |= (uint8_t)(1u << leaf);
     return p;
 }
 

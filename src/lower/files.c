@@ -10,7 +10,7 @@
 /* The path a property means, in the scene's arena: relative to the file that spells it. */
 static const char *path_of(struct lowering *l, const struct desc_value *file)
 {
-    const struct source *s = srcmap_source(l->sources, file->span.begin);
+    const struct source *s = srcmap_source(l->sources, file->spelt);
     char *path = file_resolve(s ? s->name : "", file->string.at, file->string.n);
     const char *kept = arena_copy(&l->scene->arena, path, strlen(path));
     free(path);

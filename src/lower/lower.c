@@ -65,10 +65,15 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
     };
     size_t errors = diag->errors;
     lower_camera(&l);
-    for (size_t i = 0; i < d->lights.n; i++)
+    for (size_t i = 0; i < d->lights.n; i++) {
+        diag->frame = d->lights.at[i]->frame;
         lower_light(&l, d->lights.at[i]);
-    for (size_t i = 0; i < d->surfaces.n; i++)
+    }
+    for (size_t i = 0; i < d->surfaces.n; i++) {
+        diag->frame = d->surfaces.at[i]->frame;
         lower_surface(&l, d->surfaces.at[i]);
+    }
+    diag->frame = NULL;
     note_unused(&l);
     free(l.material_of);
     free(l.texture_of);

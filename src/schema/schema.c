@@ -29,6 +29,7 @@ const struct schema_prop schema_props[SCHEMA_PROPS] = {
 #include "schema/schema.def"
 };
 
+static_assert(SCHEMA_PROPS <= 255, "desc_prop.id is a byte");
 static_assert(SCHEMA_KINDS <= 32, "schema_prop.kinds has a bit for each kind");
 
 /* The n-th of the words in a space-separated list; empty behind the last. */

@@ -48,11 +48,12 @@ static void check_required(const struct desc_object *o, struct diag *diag)
 /* XML properties made of several leaves need all of them. */
 static void check_leaves(const struct desc_object *o, const struct desc_prop *p, struct diag *diag)
 {
-    unsigned n = o->xml ? schema_leaf_count(p->id) : 1;
+    enum schema_prop_id id = (enum schema_prop_id)p->id;
+    unsigned n = o->xml ? schema_leaf_count(id) : 1;
     for (unsigned i = 0; i < n; i++)
         if (!(p->leaves >> i & 1))
             diag_report(diag, DIAG_MISSING_PROPERTY, o->span, "%s has no '%.*s'", kind_name(o),
-                        STR_ARG(schema_leaf(p->id, i)));
+                        STR_ARG(schema_leaf(id, i)));
 }
 
 static bool in_range(const struct schema_prop *s, double x)
@@ -77,7 +78,8 @@ static void describe_range(const struct schema_prop *s, char out[RANGE_BYTES])
 
 static void check_range(const struct desc_object *o, const struct desc_prop *p, struct diag *diag)
 {
-    const struct schema_prop *s = &schema_props[p->id];
+    enum schema_prop_id id = (enum schema_prop_id)p->id;
+    const struct schema_prop *s = &schema_props[id];
     unsigned n = s->type == TYPE_SIZE ? 2 : 1;
     if (!s->has_least)
         return;
@@ -87,7 +89,7 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
             continue;
         char range[RANGE_BYTES];
         describe_range(s, range);
-        struct str name = o->xml && n > 1 ? schema_leaf(p->id, i) : prop_name(o, p->id);
+        struct str name = o->xml && n > 1 ? schema_leaf(id, i) : prop_name(o, id);
         diag_report(diag, DIAG_OUT_OF_RANGE, o->xml && i > 0 ? p->value.second : p->value.span,
                     "'%.*s' must be %s", STR_ARG(name), range);
     }
@@ -96,6 +98,7 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
 static bool check_props(const struct desc_object *o, struct diag *diag)
 {
     size_t errors = diag->errors;
+    diag->frame = o->frame;
     if (!o->broken)
         check_required(o, diag);
     for (const struct desc_prop *p = o->props; p; p = p->next) {
@@ -274,5 +277,6 @@ bool validate_scene(const struct desc *d, struct diag *diag)
             check_area_light(d->lights.at[i], diag);
     for (size_t i = 0; i < d->surfaces.n; i++)
         check_surface(d->surfaces.at[i], true, diag);
+    diag->frame = NULL;
     return diag->errors == errors;
 }

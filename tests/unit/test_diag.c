@@ -104,6 +104,56 @@ START_TEST(labels_notes_and_order)
 }
 END_TEST
 
+START_TEST(frames_in_words)
+{
+    struct load l;
+    load_text(&l, "it", "chair\nring\n\"a.wrt\" i\n");
+    const struct diag_frame include = {NULL, span_in(&l, 11, 18), DIAG_FRAME_INCLUDE, 0};
+    const struct diag_frame use = {&include, span_in(&l, 0, 5), DIAG_FRAME_USE, 0};
+    const struct diag_frame round = {&use, span_in(&l, 19, 20), DIAG_FRAME_ROUND, 0.5};
+    const struct diag_frame call = {&round, span_in(&l, 6, 10), DIAG_FRAME_CALL, 0};
+    l.diag.frame = &call;
+    for (int i = 0; i < 3; i++) /* one finding, then two repeats */
+        diag_note(diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "m %d", i), "n");
+    l.diag.frame = NULL;
+    ck_assert_uint_eq(l.diag.errors, 3);
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "straight");
+    char *text = printed(&l, DIAG_FORMAT_TEXT, DIAG_ERROR);
+    ck_assert_str_eq(text, "it:1:1: error: m 0 [E010-syntax]\n"
+                           "    1 | chair\n      | ^\n"
+                           "note: n\n"
+                           "note: in ring(...) called at it:2:1\n"
+                           "note: in 'for' with i = 0.5 at it:3:9\n"
+                           "note: in chair(...) used at it:1:1\n"
+                           "note: in \"a.wrt\" included at it:3:1\n"
+                           "note: the same was found 2 more times\n"
+                           "it:1:1: error: straight [E010-syntax]\n"
+                           "    1 | chair\n      | ^\n");
+    free(text);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(deep_frames_are_cut)
+{
+    struct load l;
+    struct diag_frame frames[300];
+    load_text(&l, "it", "f");
+    for (int i = 0; i < 300; i++) {
+        frames[i] = (struct diag_frame){NULL, span_in(&l, 0, 1), DIAG_FRAME_CALL, 0};
+        frames[i].parent = i ? &frames[i - 1] : NULL;
+    }
+    l.diag.frame = &frames[12];
+    ck_assert_uint_eq(diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "m")->frames.n, 13);
+    l.diag.frame = &frames[299];
+    struct diag_entry *e = diag_report(&l.diag, DIAG_TOO_DEEP, span_in(&l, 0, 1), "m");
+    ck_assert_uint_eq(e->frames.n, 13);
+    ck_assert_str_eq(e->frames.at[8].text, "... 288 more ...");
+    ck_assert_str_eq(e->frames.at[12].text, "in f(...) called");
+    load_free(&l);
+}
+END_TEST
+
 START_TEST(messages_are_tame)
 {
     static char name[5000];
@@ -182,6 +232,8 @@ Suite *diag_suite(void)
     TCase *t = tcase_create("text");
     tcase_add_loop_test(t, text_of_finding, 0, COUNT(renderings));
     tcase_add_test(t, labels_notes_and_order);
+    tcase_add_test(t, frames_in_words);
+    tcase_add_test(t, deep_frames_are_cut);
     tcase_add_test(t, messages_are_tame);
     suite_add_tcase(s, t);
 

@@ -16,5 +16,6 @@ Suite *render_suite(void);
 Suite *schema_suite(void);
 Suite *syntax_suite(void);
 Suite *texture_suite(void);
+Suite *transform_suite(void);
 
 #endif

@@ -1,0 +1,45 @@
+/* How evaluation came to the place of a finding, in words. */
+#include "config.h"
+
+#include "diag/diag.h"
+
+#include "base/num.h"
+
+/* The frames that are told of a deep stack: its innermost and its outermost. */
+enum { INNERMOST = 8, OUTERMOST = 4 };
+
+static const char *words_of(struct diag *d, const struct diag_frame *f)
+{
+    struct str name = srcmap_text(d->sources, f->at);
+    switch (f->kind) {
+    case DIAG_FRAME_INCLUDE:
+        return arena_printf(&d->arena, "in %.*s included", STR_ARG(name));
+    case DIAG_FRAME_CALL:
+        return arena_printf(&d->arena, "in %.*s(...) called", STR_ARG(name));
+    case DIAG_FRAME_USE:
+        return arena_printf(&d->arena, "in %.*s(...) used", STR_ARG(name));
+    case DIAG_FRAME_ROUND:
+        break;
+    }
+    char number[NUM_PRINT_BYTES];
+    num_print(f->number, number);
+    return arena_printf(&d->arena, "in 'for' with %.*s = %s", STR_ARG(name), number);
+}
+
+static void add(struct diag_entry *e, struct span at, const char *text)
+{
+    vec_push(&e->frames, (struct diag_label){at, text});
+}
+
+void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost)
+{
+    size_t n = 0, i = 0;
+    for (const struct diag_frame *f = innermost; f; f = f->parent)
+        n++;
+    size_t hidden = n > INNERMOST + OUTERMOST + 1 ? n - INNERMOST - OUTERMOST : 0;
+    for (const struct diag_frame *f = innermost; f; f = f->parent, i++)
+        if (hidden && i == INNERMOST)
+            add(e, (struct span){0}, arena_printf(&e->owner->arena, "... %zu more ...", hidden));
+        else if (!hidden || i < INNERMOST || i >= INNERMOST + hidden)
+            add(e, f->at, words_of(e->owner, f));
+}
