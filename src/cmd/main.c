@@ -30,6 +30,8 @@ static const struct command {
      "parse and validate scenes; opens no texture or mesh"},
     {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
      "make a UV list of a VRML 2.0 file's texture coordinates"},
+    {"doc", FOR_DOC, command_doc, "doc [KIND[.PROPERTY]]",
+     "what scenes are made of: kinds and their properties"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

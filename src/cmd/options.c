@@ -226,6 +226,8 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return out->quiet = true;
     case OPT_VERBOSE:
         return out->verbose = true;
+    case OPT_MAN:
+        return out->manual = true;
     case OPT_HELP:
     case OPT_VERSION:
     case OPTS:

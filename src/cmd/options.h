@@ -10,15 +10,15 @@
 #include <stdint.h>
 
 /* The commands, as bits of the options they take. */
-enum { FOR_RENDER = 1, FOR_CHECK = 2, FOR_UV = 4, FOR_ALL = 7 };
+enum { FOR_RENDER = 1, FOR_CHECK = 2, FOR_UV = 4, FOR_DOC = 8, FOR_ALL = 15 };
 
-/* Those that read a scene. */
-enum { FOR_SCENES = FOR_RENDER | FOR_CHECK };
+/* Those that read a scene, and those that report on what they read. */
+enum { FOR_SCENES = FOR_RENDER | FOR_CHECK, FOR_INPUT = FOR_SCENES | FOR_UV };
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
 struct options {
-    VEC(const char *) scenes;  /* or other files to read */
+    VEC(const char *) scenes;  /* or whatever else the command takes */
     VEC(const char *) defines; /* NAME=VALUE */
     const char *output;        /* or NULL */
     uint32_t width, height;    /* 0: the scene's */
@@ -31,6 +31,7 @@ struct options {
     enum stats_format stats;
     enum diag_format format;
     bool jitter, brute_force, no_skip, quiet, verbose;
+    bool manual;
 };
 
 /* The exit status of wrong usage. */

@@ -2,8 +2,8 @@
 
 #include "validate/validate.h"
 
-#include "base/num.h"
 #include "image/picture.h"
+#include "schema/describe.h"
 
 #include <math.h>
 
@@ -62,20 +62,6 @@ static bool in_range(const struct schema_prop *s, double x)
     return isfinite(x) && !low && !(s->most != 0 && x > s->most);
 }
 
-enum { RANGE_BYTES = 128 };
-
-static void describe_range(const struct schema_prop *s, char out[RANGE_BYTES])
-{
-    char least[NUM_PRINT_BYTES], most[NUM_PRINT_BYTES];
-    num_print(s->least, least);
-    num_print(s->most, most);
-    const char *bound = s->above ? "above" : "at least";
-    if (s->most != 0)
-        snprintf(out, RANGE_BYTES, "%s %s and at most %s", bound, least, most);
-    else
-        snprintf(out, RANGE_BYTES, "%s %s", bound, least);
-}
-
 static void check_range(const struct desc_object *o, const struct desc_prop *p, struct diag *diag)
 {
     enum schema_prop_id id = (enum schema_prop_id)p->id;
@@ -87,11 +73,12 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
         bool given = !o->xml || n == 1 || p->leaves >> i & 1;
         if (!given || in_range(s, p->value.number[i]))
             continue;
-        char range[RANGE_BYTES];
-        describe_range(s, range);
+        struct buffer range = {0};
+        describe_range(&range, id);
         struct str name = o->xml && n > 1 ? schema_leaf(id, i) : prop_name(o, id);
         diag_report(diag, DIAG_OUT_OF_RANGE, o->xml && i > 0 ? p->value.second : p->value.span,
-                    "'%.*s' must be %s", STR_ARG(name), range);
+                    "'%.*s' must be %.*s", STR_ARG(name), (int)range.n, range.at);
+        buffer_free(&range);
     }
 }
 

@@ -1,0 +1,231 @@
+/* The schema, readable: `wrt doc`, `wrt doc sphere`, `wrt doc sphere.radius`, and `wrt doc radius`
+ * for what has such a property.  Names are native or XML's. */
+#include "config.h"
+
+#include "cmd/commands.h"
+
+#include "schema/describe.h"
+
+/* The names that were asked for. */
+struct question {
+    struct str kind, prop; /* prop: behind the point; empty without one */
+};
+
+static bool is_kind(enum schema_kind kind, struct str name)
+{
+    const char *native = schema_kinds[kind].native, *space = strchr(native, ' ');
+    return str_is(name, native) || (space && str_is(name, space + 1)) ||
+           schema_find_kind(schema_kinds[kind].group, name, true) == kind;
+}
+
+/* By its native name, or the word that tells it from the others of its group, or its XML class. */
+static enum schema_kind find_kind(struct str name)
+{
+    int k = 0;
+    while (k < SCHEMA_KINDS && !is_kind((enum schema_kind)k, name))
+        k++;
+    return (enum schema_kind)k;
+}
+
+static enum schema_prop_id find_prop(enum schema_kind kind, struct str name)
+{
+    unsigned leaf;
+    enum schema_prop_id id = schema_find_prop(kind, name, false, &leaf);
+    return id != SCHEMA_PROPS ? id : schema_find_prop(kind, name, true, &leaf);
+}
+
+/* ---- answers --------------------------------------------------------------------------------- */
+
+static void add_group(struct buffer *out, enum schema_group group)
+{
+    buffer_printf(out, "%ss:\n", schema_group_name(group));
+    for (int k = 0; k < SCHEMA_KINDS; k++)
+        if (schema_kinds[k].group == group)
+            buffer_printf(out, "  %-14s %s\n", schema_kinds[k].native, schema_kinds[k].doc);
+}
+
+static void add_overview(struct buffer *out)
+{
+    for (int g = 0; g < SCHEMA_GROUPS; g++) {
+        add_group(out, (enum schema_group)g);
+        buffer_puts(out, "\n");
+    }
+    buffer_puts(out, "'wrt doc KIND' shows the properties of a kind, 'wrt doc KIND.PROPERTY' all "
+                     "about one\n");
+}
+
+static void add_line(struct buffer *out, enum schema_prop_id id)
+{
+    const struct schema_prop *p = &schema_props[id];
+    buffer_printf(out, "  %-14s ", p->native);
+    describe_value(out, id, false);
+    if (p->required)
+        buffer_puts(out, ", required");
+    if (p->has_default) {
+        buffer_puts(out, " = ");
+        describe_default(out, id);
+    }
+    buffer_printf(out, "\n  %-14s %s\n", "", p->doc);
+}
+
+static void add_kind(struct buffer *out, enum schema_kind kind)
+{
+    buffer_printf(out, "%s: %s\nin XML: ", schema_kinds[kind].native, schema_kinds[kind].doc);
+    describe_element(out, kind);
+    buffer_puts(out, "\n\n");
+    for (int p = 0; p < SCHEMA_PROPS; p++)
+        if (schema_has(kind, (enum schema_prop_id)p))
+            add_line(out, (enum schema_prop_id)p);
+}
+
+static void add_property(struct buffer *out, enum schema_kind kind, enum schema_prop_id id)
+{
+    const struct schema_prop *p = &schema_props[id];
+    buffer_printf(out, "%s.%s: %s\n\n  value    ", schema_kinds[kind].native, p->native, p->doc);
+    describe_value(out, id, false);
+    buffer_puts(out, "\n  default  ");
+    if (p->has_default)
+        describe_default(out, id);
+    else
+        buffer_puts(out, p->required ? "none: it must be given" : "none");
+    buffer_puts(out, "\n  in XML   ");
+    describe_leaves(out, id);
+    if (p->type == TYPE_WORD) {
+        buffer_puts(out, ", ");
+        describe_value(out, id, true);
+    }
+    buffer_puts(out, "\n  kinds    ");
+    bool any = false;
+    for (int k = 0; k < SCHEMA_KINDS; k++)
+        if (schema_has((enum schema_kind)k, id)) {
+            buffer_printf(out, "%s%s", any ? ", " : "", schema_kinds[k].native);
+            any = true;
+        }
+    buffer_puts(out, "\n");
+}
+
+/* All properties of that name, each once; false when there is none. */
+static bool add_properties(struct buffer *out, struct str name)
+{
+    size_t before = out->n;
+    for (int p = 0; p < SCHEMA_PROPS; p++) {
+        enum schema_prop_id id = (enum schema_prop_id)p;
+        int k = 0;
+        while (k < SCHEMA_KINDS &&
+               !(schema_has((enum schema_kind)k, id) && find_prop((enum schema_kind)k, name) == id))
+            k++;
+        if (k == SCHEMA_KINDS)
+            continue;
+        buffer_puts(out, out->n > before ? "\n" : "");
+        add_property(out, (enum schema_kind)k, id);
+    }
+    return out->n > before;
+}
+
+/* ---- names that do not exist ----------------------------------------------------------------- */
+
+static int unknown(struct str name, const char *what, const char *list,
+                   const struct str_nearest *nearest)
+{
+    struct str meant = str_nearest_found(nearest);
+    if (meant.n)
+        return usage_error("doc: there is no %s '%.*s'; did you mean '%.*s'?", what, STR_ARG(name),
+                           STR_ARG(meant));
+    return usage_error("doc: there is no %s '%.*s'; 'wrt doc%s' lists them", what, STR_ARG(name),
+                       list);
+}
+
+static void try_props(struct str_nearest *nearest, enum schema_kind kind)
+{
+    struct str leaf;
+    for (int p = 0; p < SCHEMA_PROPS; p++) {
+        if (!schema_has(kind, (enum schema_prop_id)p))
+            continue;
+        str_nearest_try(nearest, str_of(schema_props[p].native));
+        for (unsigned n = 0; (leaf = schema_leaf((enum schema_prop_id)p, n)).n; n++)
+            str_nearest_try(nearest, leaf);
+    }
+}
+
+static int unknown_property(enum schema_kind kind, struct str name)
+{
+    char what[64], list[64];
+    struct str_nearest nearest = str_nearest_to(name);
+    try_props(&nearest, kind);
+    snprintf(what, sizeof what, "property of %s called", schema_kinds[kind].native);
+    snprintf(list, sizeof list, " %s", schema_kinds[kind].native);
+    return unknown(name, what, list, &nearest);
+}
+
+static int unknown_name(struct str name, bool props_too)
+{
+    struct str_nearest nearest = str_nearest_to(name);
+    for (int k = 0; k < SCHEMA_KINDS; k++) {
+        const char *native = schema_kinds[k].native, *space = strchr(native, ' ');
+        str_nearest_try(&nearest, str_of(native));
+        str_nearest_try(&nearest, str_of(space ? space + 1 : native));
+        str_nearest_try(&nearest, str_of(schema_kinds[k].xml));
+        if (props_too)
+            try_props(&nearest, (enum schema_kind)k);
+    }
+    return unknown(name, props_too ? "kind or property" : "kind", "", &nearest);
+}
+
+/* ---- the command ----------------------------------------------------------------------------- */
+
+static int answer(struct buffer *out, const struct question *q)
+{
+    enum schema_kind kind = find_kind(q->kind);
+    if (q->prop.n) {
+        enum schema_prop_id id = kind == SCHEMA_KINDS ? SCHEMA_PROPS : find_prop(kind, q->prop);
+        if (kind == SCHEMA_KINDS)
+            return unknown_name(q->kind, false);
+        if (id == SCHEMA_PROPS)
+            return unknown_property(kind, q->prop);
+        add_property(out, kind, id);
+        return 0;
+    }
+    if (kind != SCHEMA_KINDS) {
+        add_kind(out, kind);
+        return 0;
+    }
+    for (int g = 0; g < SCHEMA_GROUPS; g++) {
+        if (str_is(q->kind, schema_group_name((enum schema_group)g))) {
+            add_group(out, (enum schema_group)g);
+            return 0;
+        }
+    }
+    return add_properties(out, q->kind) ? 0 : unknown_name(q->kind, true);
+}
+
+/* `light point.intensity`, as one argument or several. */
+static void join(struct buffer *out, const struct options *o)
+{
+    for (size_t i = 0; i < o->scenes.n; i++) {
+        buffer_puts(out, i ? " " : "");
+        buffer_puts(out, o->scenes.at[i]);
+    }
+}
+
+int command_doc(const struct options *o)
+{
+    struct buffer out = {0}, words = {0};
+    int status = 0;
+    join(&words, o);
+    struct str all = {words.at, words.n};
+    const char *point = all.n ? memchr(all.at, '.', all.n) : NULL;
+    size_t n = point ? (size_t)(point - all.at) : all.n;
+    struct question q = {.kind = {all.at, n}};
+    if (point)
+        q.prop = (struct str){point + 1, all.n - n - 1};
+    if (o->manual)
+        describe_manual(&out);
+    else if (all.n)
+        status = answer(&out, &q);
+    else
+        add_overview(&out);
+    fwrite(out.at, 1, out.n, stdout);
+    buffer_free(&words);
+    buffer_free(&out);
+    return status;
+}
