@@ -7,7 +7,7 @@
 #define WRT_RENDER_TRACER_H
 
 #include "accel/shaft.h"
-#include "render/camera.h"
+#include "scene/camera.h"
 #include "render/render.h"
 
 enum { BATCH = BUNDLE_LIMIT };

@@ -1,6 +1,6 @@
 /* From a place in the picture to a ray. */
-#ifndef WRT_RENDER_CAMERA_H
-#define WRT_RENDER_CAMERA_H
+#ifndef WRT_SCENE_CAMERA_H
+#define WRT_SCENE_CAMERA_H
 
 #include "scene/scene.h"
 

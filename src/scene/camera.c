@@ -1,6 +1,6 @@
 #include "config.h"
 
-#include "render/camera.h"
+#include "scene/camera.h"
 
 struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
 {
