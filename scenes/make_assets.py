@@ -356,6 +356,50 @@ class Mesh:
             text = "".join("%s %s\n" % (number(u), number(v)) for u, v in self.uvs)
             save(name + "_uv.txt", text.encode())
 
+    def save_obj(self, name, comment, crease):
+        """With texture coordinates, and normals that break at edges sharper than `crease`."""
+        corners = [(f[k], k, i) for i, f in enumerate(self.faces) for k in range(3)]
+        flat = [unit(cross(sub(v[1], v[0]), sub(v[2], v[0])))
+                for v in ([self.vertices[c] for c in f] for f in self.faces)]
+        around = {}
+        for vertex, _, face in corners:
+            around.setdefault(vertex, []).append(face)
+        limit = math.cos(math.radians(crease))
+        lists = {"vt": {}, "vn": {}}
+
+        def place(kind, values):
+            known = lists[kind]
+            return known.setdefault(" ".join(number(x) for x in values), len(known) + 1)
+
+        faces = [[] for _ in self.faces]
+        for vertex, k, i in corners:
+            near = [flat[j] for j in around[vertex] if dot(flat[i], flat[j]) >= limit]
+            normal = unit(tuple(sum(n[c] for n in near) for c in range(3)))
+            faces[i].append("%d/%d/%d" % (vertex + 1, place("vt", self.uvs[3 * i + k]),
+                                          place("vn", normal)))
+        lines = ["# " + comment] + ["v " + " ".join(number(c) for c in p) for p in self.vertices]
+        lines += [kind + " " + text for kind in lists for text in lists[kind]]
+        lines += ["f " + " ".join(face) for face in faces]
+        save(name + ".obj", ("\n".join(lines) + "\n").encode())
+
+    def save_ply(self, name, comment):
+        """Binary, with doubles."""
+        header = ("ply\nformat binary_little_endian 1.0\ncomment %s\nelement vertex %d\n"
+                  "property double x\nproperty double y\nproperty double z\nelement face %d\n"
+                  "property list uchar int vertex_indices\nend_header\n"
+                  % (comment, len(self.vertices), len(self.faces)))
+        save(name + ".ply", header.encode()
+             + b"".join(struct.pack("<3d", *(float(number(c)) for c in p)) for p in self.vertices)
+             + b"".join(struct.pack("<B3i", 3, *f) for f in self.faces))
+
+    def save_stl(self, name):
+        lines = ["solid " + name]
+        for f in self.faces:
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += ["vertex " + " ".join(number(c) for c in self.vertices[i]) for i in f]
+            lines += ["endloop", "endfacet"]
+        save(name + ".stl", ("\n".join(lines + ["endsolid " + name]) + "\n").encode())
+
 
 def number(x):
     """Four decimals, no trailing zeros, no minus zero."""
@@ -541,12 +585,40 @@ def vase():
     return revolve(outside + inside, 40)
 
 
+def gem():
+    """A brilliant of 8 sides: table, crown, girdle, pavilion; its tip stands on y = 0."""
+    m = Mesh()
+
+    def ring(radius, y, turn):
+        return [m.vertex((radius * math.cos(math.pi * (i + turn) / 4), y,
+                          radius * math.sin(math.pi * (i + turn) / 4))) for i in range(8)]
+
+    tip, girdle, table = m.vertex((0.0, 0.0, 0.0)), ring(1.0, 0.9, 0.0), ring(0.62, 1.25, 0.5)
+    for i in range(8):
+        k = (i + 1) % 8
+        m.face((tip, girdle[i], girdle[k]))
+        m.face((girdle[i], table[i], girdle[k]))
+        m.face((table[i], table[k], girdle[k]))
+        if i > 1:
+            m.face((table[0], table[i], table[i - 1]))
+    return m.outwards()
+
+
+def mug():
+    """A beaker with sharp rims outside and inside."""
+    return revolve([(0.0, 0.0), (0.34, 0.0), (0.38, 0.3), (0.41, 0.6), (0.43, 0.9), (0.37, 0.9),
+                    (0.35, 0.6), (0.32, 0.3), (0.29, 0.06), (0.0, 0.06)], 24)
+
+
 def make_meshes():
     torus(40, 20, 0.72, 0.28).save("torus", "torus about the y axis, radii 0.72 and 0.28", True)
     vase().save("vase", "vase of revolution, 1.78 high, standing on y = 0", True)
     teapot().save("pot", "tea pot, 1.35 high, standing on y = 0, spout towards +x")
     blob(4).save("blob", "wavy ball of radius about 1")
     knot(256, 16, 0.17).save("knot", "tube along a trefoil knot, in the plane z = 0")
+    mug().save_obj("mug", "beaker 0.9 high, standing on y = 0", 40)
+    torus(24, 12, 0.5, 0.16).save_ply("ring", "torus about the y axis, radii 0.5 and 0.16")
+    gem().save_stl("gem")
     box((90, 180, 90), 20).save("box_tall", "box 90 x 180 x 90, turned by 20 degrees")
     box((84, 84, 84), -24).save("box_short", "cube of side 84, turned by -24 degrees")
 

@@ -162,7 +162,7 @@ static int load(struct run *r)
         right =
             lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
-    int status = frontend_report(&r->frontend, o, DIAG_WARNING);
+    int status = frontend_report(&r->frontend, o, o->verbose ? DIAG_NOTE : DIAG_WARNING);
     if (right && o->verbose)
         describe_meshes(r);
     return status;

@@ -20,9 +20,10 @@ static const char *path_of(struct lowering *l, const struct desc_value *file)
 static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,
                       const char *what, char **data, size_t *n)
 {
-    const char *reason = strlen(path) == file->string.n || !memchr(file->string.at, 0, file->string.n)
-                             ? file_read(path, data, n)
-                             : "the name holds a zero byte";
+    const char *reason =
+        strlen(path) == file->string.n || !memchr(file->string.at, 0, file->string.n)
+            ? file_read(path, data, n)
+            : "the name holds a zero byte";
     if (reason)
         diag_report(l->diag, DIAG_FILE_MISSING, file->span, "could not read the %s '%s': %s", what,
                     path, reason);
@@ -78,8 +79,7 @@ static const struct source *load_source(struct lowering *l, const struct desc_va
     return s;
 }
 
-/* What was found in a file since `first` also shows who asked for the file. */
-static void label_request(struct lowering *l, size_t first, const struct desc_value *file)
+void lower_label_request(struct lowering *l, size_t first, const struct desc_value *file)
 {
     for (size_t i = first; i < l->diag->entries.n; i++)
         diag_label(l->diag->entries.at[i], file->span, "the scene names the file here");
@@ -90,9 +90,9 @@ static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file,
 #ifdef HAVE_OPENMESH
     const struct source *s = load_source(l, file, path, "mesh");
     size_t first = l->diag->entries.n;
-    struct mesh *m = s ? off_parse(s, l->diag) : NULL;
+    struct mesh *m = s ? mesh_parse(s, l->diag) : NULL;
     if (s)
-        label_request(l, first, file);
+        lower_label_request(l, first, file);
     return m;
 #else
     diag_report(l->diag, DIAG_MESH_SUPPORT, file->span,
@@ -120,7 +120,7 @@ const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *fi
     size_t first = l->diag->entries.n;
     if (!s || !uv_list_parse(s, faces, &uvs, l->diag)) {
         if (s)
-            label_request(l, first, file);
+            lower_label_request(l, first, file);
         return NULL;
     }
     size_t n = 3 * faces;

@@ -50,8 +50,8 @@ static uint32_t lower_material(struct lowering *l, const struct desc_object *o)
 
 /* ---- shapes ---- */
 
-static bool fits(struct lowering *l, const struct desc_object *o, const struct geometry *g,
-                 size_t more_prims, size_t more_vertices)
+bool lower_fits(struct lowering *l, const struct desc_object *o, const struct geometry *g,
+                size_t more_prims, size_t more_vertices)
 {
     if (more_prims < GEOMETRY_LIMIT - g->prims.n && more_vertices < GEOMETRY_LIMIT - g->vertices.n)
         return true;
@@ -111,30 +111,6 @@ static bool add_quad(struct lowering *l, const struct desc_object *o, struct geo
     return add_polygon(g, surface, desc_get(o, PROP_QUAD_VERTICES));
 }
 
-static bool add_mesh(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                     uint32_t surface)
-{
-    const struct mesh *m = lower_mesh_file(l, desc_get(o, PROP_MESH_FILE));
-    struct vec3 scale = desc_vector(o, PROP_MESH_SCALE), offset = desc_vector(o, PROP_MESH_POSITION);
-    if (!m || !fits(l, o, g, m->faces.n, m->points.n))
-        return false;
-    uint32_t first = (uint32_t)g->vertices.n;
-    for (size_t i = 0; i < m->points.n; i++) {
-        struct vec3 p = vec3_add(vec3_mul(m->points.at[i], scale), offset);
-        if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) {
-            diag_report(l->diag, DIAG_NOT_FINITE, o->span,
-                        "vertex %zu of the mesh is too large once scaled and moved", i);
-            return false;
-        }
-        geometry_add_vertex(g, p);
-    }
-    for (size_t i = 0; i < m->faces.n; i++) {
-        const uint32_t *c = m->faces.at[i].at;
-        geometry_add_triangle(g, surface, first + c[0], first + c[1], first + c[2]);
-    }
-    return true;
-}
-
 static const struct shape_row {
     enum surface_kind surface;
     bool (*add)(struct lowering *l, const struct desc_object *o, struct geometry *g,
@@ -144,7 +120,7 @@ static const struct shape_row {
     [KIND_CYLINDER] = {SURFACE_CYLINDER, add_cylinder},
     [KIND_TRIANGLE] = {SURFACE_TRIANGLE, add_triangle},
     [KIND_QUAD] = {SURFACE_QUAD, add_quad},
-    [KIND_MESH] = {SURFACE_MESH, add_mesh},
+    [KIND_MESH] = {SURFACE_MESH, lower_mesh_shape},
 };
 
 bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometry *g,
@@ -153,7 +129,7 @@ bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometr
     enum { MOST = 4 }; /* prims and vertices of any shape but a mesh, which asks for itself */
     *first_vertex = (uint32_t)g->vertices.n;
     assert(shapes[o->kind].add);
-    return fits(l, o, g, MOST, MOST) && shapes[o->kind].add(l, o, g, surface);
+    return lower_fits(l, o, g, MOST, MOST) && shapes[o->kind].add(l, o, g, surface);
 }
 
 /* ---- what shading needs beyond the shape ---- */
@@ -170,59 +146,22 @@ static const struct vec2 *corner_uvs(struct lowering *l, const struct desc_value
     return uvs;
 }
 
+/* Spheres and cylinders have their own. */
 static const struct vec2 *surface_uvs(struct lowering *l, const struct desc_object *o,
-                                      uint32_t prims)
+                                      const struct desc_prop *why)
 {
-    switch (o->kind) {
-    case KIND_TRIANGLE:
+    if (o->kind == KIND_TRIANGLE)
         return corner_uvs(l, desc_get(o, PROP_TRIANGLE_UVS));
-    case KIND_QUAD:
+    if (o->kind == KIND_QUAD)
         return corner_uvs(l, desc_get(o, PROP_QUAD_UVS));
-    case KIND_MESH:
-        return lower_uv_file(l, desc_get(o, PROP_UV_FILE), prims);
-    default: /* spheres and cylinders have their own */
-        return NULL;
-    }
+    return o->kind == KIND_MESH ? lower_mesh_uvs(l, o, why) : NULL;
 }
 
-static const struct vec3 *vertex_normals(struct lowering *l, const struct desc_object *o,
-                                         uint32_t first_vertex)
+/* The property that asks for texture coordinates, or NULL. */
+static const struct desc_prop *wants_uvs(const struct desc_object *o)
 {
-    const struct mesh *m = lower_mesh_file(l, desc_get(o, PROP_MESH_FILE));
-    struct vec3 *normals = arena_zalloc(&l->scene->arena, m->points.n, sizeof *normals);
-    mesh_vertex_normals(l->scene->geometry.vertices.at + first_vertex, m->points.n, m->faces.at,
-                        m->faces.n, normals);
-    return normals;
-}
-
-/* A debug view: a white cylinder along each vertex normal, a tenth of its length in radius. */
-static void add_normal_cylinders(struct lowering *l, const struct desc_object *o,
-                                 const struct surface *mesh)
-{
-    static const struct material white = {
-        .kind = MATERIAL_LAMBERT, .diffuse = {1, 1, 1}, .texture = TEXTURE_NONE};
-    struct geometry *g = &l->scene->geometry;
-    const struct vec3 *normals =
-        mesh->normals ? mesh->normals : vertex_normals(l, o, mesh->first_vertex);
-    double length = desc_number(o, PROP_SHOW_NORMALS) * (mesh->flip ? -1 : 1);
-    size_t n = g->vertices.n - mesh->first_vertex;
-    if (!fits(l, o, g, n, 0))
-        return;
-    uint32_t surface = (uint32_t)l->scene->surfaces.n, first = (uint32_t)g->prims.n;
-    for (size_t i = 0; i < n; i++) {
-        struct vec3 p = g->vertices.at[mesh->first_vertex + i];
-        struct vec3 tip = vec3_mad(p, length, normals[i]);
-        if (vec3_length(vec3_sub(tip, p)) > 0)
-            geometry_add_cylinder(g, surface, p, tip, fabs(length) / 10);
-    }
-    struct surface s = {.kind = SURFACE_CYLINDER,
-                        .material = (uint32_t)l->scene->materials.n,
-                        .first_prim = first,
-                        .prim_count = (uint32_t)g->prims.n - first,
-                        .normal_map = TEXTURE_NONE,
-                        .span = mesh->span};
-    vec_push(&l->scene->materials, white);
-    vec_push(&l->scene->surfaces, s);
+    const struct desc_prop *map = desc_find(o, PROP_NORMAL_MAP);
+    return map ? map : desc_find(desc_get(o, PROP_MATERIAL)->object, PROP_TEXTURE);
 }
 
 void lower_surface(struct lowering *l, const struct desc_object *o)
@@ -240,16 +179,16 @@ void lower_surface(struct lowering *l, const struct desc_object *o)
     if (!lower_shape(l, o, g, (uint32_t)l->scene->surfaces.n, &s.first_vertex))
         return;
     s.prim_count = (uint32_t)g->prims.n - s.first_prim;
-    s.needs_uv = s.normal_map != TEXTURE_NONE ||
-                 l->scene->materials.at[s.material].texture != TEXTURE_NONE;
-    if (s.needs_uv)
-        s.uvs = surface_uvs(l, o, s.prim_count);
+    const struct desc_prop *why = wants_uvs(o);
+    s.needs_uv = why != NULL;
+    if (why)
+        s.uvs = surface_uvs(l, o, why);
     if (o->kind == KIND_MESH) {
         s.flip = desc_number(o, PROP_FLIP_NORMALS) != 0;
         if (desc_number(o, PROP_SMOOTH) > 0)
-            s.normals = vertex_normals(l, o, s.first_vertex);
+            lower_mesh_normals(l, o, &s);
     }
     vec_push(&l->scene->surfaces, s);
     if (o->kind == KIND_MESH && desc_get(o, PROP_SHOW_NORMALS))
-        add_normal_cylinders(l, o, &s);
+        lower_normal_cylinders(l, o, &s);
 }

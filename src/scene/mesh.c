@@ -21,6 +21,9 @@ void mesh_free(struct mesh *m)
         return;
     vec_free(&m->points);
     vec_free(&m->faces);
+    vec_free(&m->uvs);
+    vec_free(&m->normals);
+    vec_free(&m->normal_corners);
     free(m);
 }
 
@@ -33,6 +36,13 @@ static struct vec3 scaled_to_one(struct vec3 v)
         return v;
     frexp(largest, &exponent);
     return vec3(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent));
+}
+
+struct vec3 mesh_direction(struct vec3 v)
+{
+    v = scaled_to_one(v);
+    double length = vec3_length(v);
+    return length > 0 ? vec3_scale(v, 1 / length) : vec3_all(0);
 }
 
 int mesh_face_normal(struct vec3 a, struct vec3 b, struct vec3 c, struct vec3 *normal)

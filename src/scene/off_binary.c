@@ -9,10 +9,10 @@
  * takes the bytes for text, and given a damaged file it follows any count and index it finds. */
 #include "config.h"
 
+#include "scene/bytes.h"
 #include "scene/mesh.h"
 
 #include <math.h>
-#include <string.h>
 
 struct layout {
     bool big_endian, colours;
@@ -31,19 +31,14 @@ static size_t words_left(const struct bytes *b)
 /* The caller has checked words_left. */
 static uint32_t take_word(struct bytes *b)
 {
-    const uint8_t *p = b->at;
     b->at += 4;
-    if (b->layout.big_endian)
-        return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
-    return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+    return (uint32_t)bytes_load(b->at - 4, 4, b->layout.big_endian);
 }
 
 static double take_float(struct bytes *b)
 {
-    uint32_t bits = take_word(b);
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return (double)f;
+    b->at += 4;
+    return bytes_load_float(b->at - 4, b->layout.big_endian);
 }
 
 static bool take_points(struct bytes *b, size_t n, struct mesh *m)

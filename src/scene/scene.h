@@ -8,6 +8,7 @@
 #include "base/srcmap.h"
 #include "image/picture.h"
 #include "scene/geometry.h"
+#include "scene/openmesh.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -68,6 +69,7 @@ struct surface {
     bool needs_uv;          /* its material has a texture or it has a normal map */
     bool flip;              /* mesh: normals negated */
     const struct vec3 *normals; /* smooth mesh: one a vertex, from first_vertex on; or NULL */
+    const struct triangle_corners *normal_corners; /* normals by face instead; or NULL */
     const struct vec2 *uvs;     /* three a primitive, or NULL */
     struct span span;           /* where the scene text says it */
 };

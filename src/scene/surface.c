@@ -59,10 +59,12 @@ static struct vec3 smooth_normal(const struct geometry *g, const struct surface 
 {
     const struct triangle *t = &g->triangles.at[g->prims.at[hit->prim].index];
     const struct vec3 *normals = surface->normals;
-    struct vec3 n =
-        vec3_scale(normals[t->vertex[0] - surface->first_vertex], 1 - hit->b1 - hit->b2);
-    n = vec3_mad(n, hit->b1, normals[t->vertex[1] - surface->first_vertex]);
-    n = vec3_mad(n, hit->b2, normals[t->vertex[2] - surface->first_vertex]);
+    const struct triangle_corners *own = surface->normal_corners;
+    const uint32_t *at = own ? own[hit->prim - surface->first_prim].at : t->vertex;
+    uint32_t first = own ? 0 : surface->first_vertex;
+    struct vec3 n = vec3_scale(normals[at[0] - first], 1 - hit->b1 - hit->b2);
+    n = vec3_mad(n, hit->b1, normals[at[1] - first]);
+    n = vec3_mad(n, hit->b2, normals[at[2] - first]);
     return vec3_largest(n) > 0 ? vec3_normalize(n) : t->normal;
 }
 

@@ -197,12 +197,12 @@ static void check_mesh(const struct desc_object *o, struct diag *diag)
     }
 }
 
-/* The property with a surface's texture coordinates; SCHEMA_PROPS: it needs none. */
+/* The property with a surface's texture coordinates; SCHEMA_PROPS: it needs none, or, as a mesh, may
+ * have some in its file. */
 static enum schema_prop_id uv_prop(enum schema_kind kind)
 {
     return kind == KIND_TRIANGLE ? PROP_TRIANGLE_UVS
            : kind == KIND_QUAD   ? PROP_QUAD_UVS
-           : kind == KIND_MESH   ? PROP_UV_FILE
                                  : SCHEMA_PROPS;
 }
 
@@ -222,10 +222,7 @@ static void check_uvs(const struct desc_object *o, struct diag *diag)
         diag_report(diag, DIAG_MISSING_UV, o->span, "%s has %s but no texture coordinates",
                     kind_name(o), map ? "a normal map" : "a texture");
     diag_label(e, why->name_span, "%s is given here", map ? "the normal map" : "the texture");
-    if (o->kind == KIND_MESH)
-        diag_note(e, "give '%.*s', a list of three pairs a face", STR_ARG(prop_name(o, uvs)));
-    else
-        diag_note(e, "give '%.*s', one for each corner", STR_ARG(prop_name(o, uvs)));
+    diag_note(e, "give '%.*s', one for each corner", STR_ARG(prop_name(o, uvs)));
 }
 
 /* A light's object has no material: only its shape counts. */

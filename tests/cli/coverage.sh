@@ -15,7 +15,7 @@ offence()
     status=1
 }
 
-codes=$(sed -n 's/^DIAG([A-Z0-9_]*, "\([EW][0-9]*\)", "\([a-z0-9-]*\)".*/\1-\2/p' src/diag/diag.def)
+codes=$(sed -n 's/^DIAG([A-Z0-9_]*, "\([EWN][0-9]*\)", "\([a-z0-9-]*\)".*/\1-\2/p' src/diag/diag.def)
 [ -n "$codes" ] || offence "no codes found in src/diag/diag.def"
 for code in $codes; do
     case " $costly " in *" $code "*) continue ;; esac

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "scene/mesh.h"
 
+#include "reading.h"
 #include "unit.h"
 
 #include <math.h>
@@ -11,47 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define COUNT(a) (int)(sizeof(a) / sizeof *(a))
-
-/* A text in a source map of its own, and what was said about it. */
-struct reading {
-    struct srcmap map;
-    struct source *source;
-    struct diag diag;
-};
-
-/* Something stands before the text, so that offsets of the map and of the text differ. */
-static void reading_init(struct reading *r, const void *text, size_t n)
-{
-    *r = (struct reading){0};
-    srcmap_add(&r->map, "before", mem_zalloc(10 + 2, 1), 10);
-    char *copy = mem_alloc(n + 2, 1);
-    memcpy(copy, text, n);
-    r->source = srcmap_add(&r->map, "test", copy, n);
-    diag_init(&r->diag, &r->map);
-}
-
-static void reading_free(struct reading *r)
-{
-    diag_free(&r->diag);
-    srcmap_free(&r->map);
-}
-
-/* The one error must have this code and stand at `place`, a part of the text. */
-static void check_error(const struct reading *r, enum diag_code code, const char *place,
-                        const char *message)
-{
-    ck_assert_uint_eq(r->diag.entries.n, 1);
-    const struct diag_entry *e = r->diag.entries.at[0];
-    ck_assert_msg(e->code == code, "%s: %s", diag_rules[e->code].slug, e->message);
-    ck_assert_msg(strstr(e->message, message), "'%s' is not in '%s'", message, e->message);
-    ck_assert_uint_ge(e->span.begin, r->source->base);
-    ck_assert_uint_le(e->span.end, r->source->base + r->source->n);
-    struct str at = srcmap_text(&r->map, e->span);
-    ck_assert_msg(str_is(at, place), "'%s' stands at '%.*s', not '%s'", e->message, STR_ARG(at),
-                  place);
-}
 
 /* ---- text OFF -------------------------------------------------------------------------------- */
 
@@ -85,8 +45,8 @@ static const struct {
 START_TEST(off_is_read)
 {
     struct reading r;
-    reading_init(&r, good[_i].text, strlen(good[_i].text));
-    struct mesh *m = off_parse(r.source, &r.diag);
+    reading_init(&r, "test.off", good[_i].text, strlen(good[_i].text));
+    struct mesh *m = mesh_parse(r.source, &r.diag);
     ck_assert_msg(m && r.diag.entries.n == 0, "%s",
                   r.diag.entries.n ? r.diag.entries.at[0]->message : "no mesh");
     ck_assert_uint_eq(m->points.n, good[_i].points);
@@ -102,8 +62,8 @@ START_TEST(off_coordinates_are_nearest_doubles)
 {
     static const char text[] = "OFF\n1 0 0\n1.00000000001 -.1 +123456789.123456789e-3\n";
     struct reading r;
-    reading_init(&r, text, sizeof text - 1);
-    struct mesh *m = off_parse(r.source, &r.diag);
+    reading_init(&r, "test.off", text, sizeof text - 1);
+    struct mesh *m = mesh_parse(r.source, &r.diag);
     ck_assert_ptr_nonnull(m);
     ck_assert(m->points.at[0].x == 1.00000000001);
     ck_assert(m->points.at[0].y == -.1);
@@ -123,8 +83,6 @@ static const struct {
     {"hello", DIAG_MESH_FORMAT, "hello", "not an OFF file"},
     {"off\n", DIAG_MESH_FORMAT, "off", "not an OFF file"},
     {"3 1 0\n" TRIANGLE, DIAG_MESH_FORMAT, "3", "not an OFF file"},
-    {"ply\nformat ascii 1.0\n", DIAG_MESH_FORMAT, "ply", "PLY files are not read"},
-    {"solid cube\n", DIAG_MESH_FORMAT, "solid", "STL files"},
     {"#VRML V2.0 utf8\n", DIAG_MESH_FORMAT, "#VRML", "VRML files"},
     {"COFF\n3 1 0\n", DIAG_MESH_FORMAT, "COFF", "COFF files are not read"},
     {"NOFF\n3 1 0\n", DIAG_MESH_FORMAT, "NOFF", "NOFF files"},
@@ -171,8 +129,8 @@ static const struct {
 START_TEST(off_damage_is_reported)
 {
     struct reading r;
-    reading_init(&r, damaged[_i].text, strlen(damaged[_i].text));
-    ck_assert_ptr_null(off_parse(r.source, &r.diag));
+    reading_init(&r, "test.off", damaged[_i].text, strlen(damaged[_i].text));
+    ck_assert_ptr_null(mesh_parse(r.source, &r.diag));
     check_error(&r, damaged[_i].code, damaged[_i].place, damaged[_i].message);
     reading_free(&r);
 }
@@ -184,8 +142,8 @@ START_TEST(off_crowded_vertex_is_pointed_to)
 {
     static const char text[] = "OFF\n2 1 0\n0 0 0 7 8 9\n1 2 0 7 8 9\n3 0 1 0\n";
     struct reading r;
-    reading_init(&r, text, sizeof text - 1);
-    ck_assert_ptr_null(off_parse(r.source, &r.diag));
+    reading_init(&r, "test.off", text, sizeof text - 1);
+    ck_assert_ptr_null(mesh_parse(r.source, &r.diag));
     const struct diag_entry *e = r.diag.entries.at[0];
     ck_assert_uint_eq(e->labels.n, 1);
     ck_assert_uint_eq(e->labels.at[0].span.begin, r.source->base + 16);
@@ -200,8 +158,8 @@ START_TEST(off_truncation_and_flips)
     static const char flips[] = {1, 2, 16, 64, (char)0x80};
     struct reading r;
     for (size_t n = 0; n < sizeof text - 2; n++) {
-        reading_init(&r, text, n);
-        ck_assert_msg(!off_parse(r.source, &r.diag), "a mesh from %zu bytes", n);
+        reading_init(&r, "test.off", text, n);
+        ck_assert_msg(!mesh_parse(r.source, &r.diag), "a mesh from %zu bytes", n);
         ck_assert_uint_eq(r.diag.errors, 1);
         reading_free(&r);
     }
@@ -210,8 +168,8 @@ START_TEST(off_truncation_and_flips)
             char flipped[sizeof text];
             memcpy(flipped, text, sizeof text);
             flipped[at] ^= flips[k];
-            reading_init(&r, flipped, sizeof text - 1);
-            struct mesh *m = off_parse(r.source, &r.diag);
+            reading_init(&r, "test.off", flipped, sizeof text - 1);
+            struct mesh *m = mesh_parse(r.source, &r.diag);
             ck_assert_uint_eq(r.diag.errors, m ? 0 : 1);
             mesh_free(m);
             reading_free(&r);
@@ -276,8 +234,8 @@ START_TEST(binary_off_is_read)
     static const struct triangle_corners wanted[] = {{{1, 2, 3}}, {{0, 1, 2}}, {{0, 2, 3}}};
     struct blob b = blob_make(_i & 1, _i & 2);
     struct reading r;
-    reading_init(&r, b.bytes.at, b.bytes.n);
-    struct mesh *m = off_parse(r.source, &r.diag);
+    reading_init(&r, "test.off", b.bytes.at, b.bytes.n);
+    struct mesh *m = mesh_parse(r.source, &r.diag);
     ck_assert_ptr_nonnull(m);
     ck_assert_uint_eq(m->points.n, 4);
     ck_assert(m->points.at[3].x == -2.5);
@@ -295,15 +253,15 @@ START_TEST(binary_off_damage_is_reported)
     struct blob b = blob_make(_i & 1, _i & 2);
     struct reading r;
     for (size_t n = 11; n < b.bytes.n; n++) {
-        reading_init(&r, b.bytes.at, n);
-        ck_assert_msg(!off_parse(r.source, &r.diag), "a mesh from %zu bytes", n);
+        reading_init(&r, "test.off", b.bytes.at, n);
+        ck_assert_msg(!mesh_parse(r.source, &r.diag), "a mesh from %zu bytes", n);
         check_error(&r, DIAG_MESH_SYNTAX, "BINARY", "damaged or ends early");
         reading_free(&r);
     }
     for (size_t at = 11; at < b.bytes.n; at++) {
         b.bytes.at[at] = (char)~b.bytes.at[at];
-        reading_init(&r, b.bytes.at, b.bytes.n);
-        struct mesh *m = off_parse(r.source, &r.diag);
+        reading_init(&r, "test.off", b.bytes.at, b.bytes.n);
+        struct mesh *m = mesh_parse(r.source, &r.diag);
         ck_assert_uint_eq(r.diag.errors, m ? 0 : 1);
         mesh_free(m);
         reading_free(&r);
@@ -343,7 +301,7 @@ START_TEST(uv_list_is_read_or_refused)
 {
     struct reading r;
     struct vec2 *out;
-    reading_init(&r, uvs[_i].text, strlen(uvs[_i].text));
+    reading_init(&r, "test.off", uvs[_i].text, strlen(uvs[_i].text));
     bool ok = uv_list_parse(r.source, uvs[_i].faces, &out, &r.diag);
     ck_assert_int_eq(ok, uvs[_i].code == DIAG_CODES);
     if (!ok) {

@@ -15,6 +15,7 @@ int main(void)
     srunner_add_suite(runner, eval_suite());
     srunner_add_suite(runner, lower_suite());
     srunner_add_suite(runner, image_suite());
+    srunner_add_suite(runner, formats_suite());
     srunner_add_suite(runner, mesh_suite());
     srunner_add_suite(runner, bvh_suite());
     srunner_add_suite(runner, geometry_suite());

@@ -8,6 +8,7 @@ Suite *base_suite(void);
 Suite *bvh_suite(void);
 Suite *diag_suite(void);
 Suite *eval_suite(void);
+Suite *formats_suite(void);
 Suite *geometry_suite(void);
 Suite *image_suite(void);
 Suite *lower_suite(void);

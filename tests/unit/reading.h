@@ -1,0 +1,24 @@
+/* A text in a source map of its own, and what was said about it. */
+#ifndef WRT_TESTS_READING_H
+#define WRT_TESTS_READING_H
+
+#include "base/srcmap.h"
+#include "diag/diag.h"
+
+#define COUNT(a) (int)(sizeof(a) / sizeof *(a))
+
+struct reading {
+    struct srcmap map;
+    struct source *source;
+    struct diag diag;
+};
+
+/* `name` tells the format of a mesh where its content does not. */
+void reading_init(struct reading *r, const char *name, const void *text, size_t n);
+void reading_free(struct reading *r);
+
+/* The one error must have this code and stand at `place`, a part of the text. */
+void check_error(const struct reading *r, enum diag_code code, const char *place,
+                 const char *message);
+
+#endif
