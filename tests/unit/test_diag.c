@@ -214,7 +214,7 @@ END_TEST
 START_TEST(rules)
 {
     const struct diag_rule *r = &diag_rules[_i];
-    ck_assert_int_eq(r->code[0], r->level == DIAG_ERROR ? 'E' : 'W');
+    ck_assert_int_eq(r->code[0], "NWE"[r->level]);
     ck_assert_uint_eq(strlen(r->code), 4);
     ck_assert(r->level != DIAG_ERROR || r->exit != DIAG_EXIT_OK);
     ck_assert_uint_eq(strspn(r->slug, "abcdefghijklmnopqrstuvwxyz-"), strlen(r->slug));
