@@ -41,7 +41,7 @@ static void check_point(struct vec3 p, double x, double y, double z)
 #define PLY_POINTS "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 #define FACET(a, b, c)                                                                            \
     "facet normal 0 0 0\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet" \
-                                                                            "\n"
+    "\n"
 
 static const struct {
     const char *name, *text;
@@ -112,6 +112,8 @@ static const struct {
 } spellings[] = {
     {"v 1.00000000001 -.1 +123456789.123456789e-3\nf 1 1 1\n"},
     {PLY_HEADER("1", "1") "1.00000000001 -.1 +123456789.123456789e-3\n3 0 0 0\n"},
+    {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float z\nproperty float x\n"
+     "property float x\nproperty float y\nend_header\n123456789.123456789e-3 1.00000000001 9 -.1"},
     {"solid\nfacet outer loop\nvertex 1.00000000001 -.1 +123456789.123456789e-3\n"
      "vertex 0 0 0 vertex 0 0 0 endloop endfacet endsolid"},
 };
@@ -267,6 +269,7 @@ static const struct {
     {"m", OBJ_POINTS "f 1// 2// 3//\n", DIAG_MESH_SYNTAX, "1//", "a corner"},
     {"m", OBJ_POINTS "f 1/1/1/1 2 3\n", DIAG_MESH_SYNTAX, "1/1/1/1", "a corner"},
     {"m", OBJ_POINTS "f 1.5 2 3\n", DIAG_MESH_SYNTAX, "1.5", "a corner"},
+    {"m", OBJ_POINTS "f 1 2 3\\x\n", DIAG_MESH_SYNTAX, "3\\x", "a corner"},
     {"m", OBJ_POINTS "f - 2 3\n", DIAG_MESH_SYNTAX, "-", "a corner"},
     /* PLY */
     {"m", "ply", DIAG_MESH_SYNTAX, "", "the file ends before 'element'"},

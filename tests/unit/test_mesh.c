@@ -98,6 +98,7 @@ static const struct {
     {"OFF\n3.5 1 0\n", DIAG_MESH_SYNTAX, "3.5", "number of vertices"},
     {"OFF\n3x 1 0\n", DIAG_MESH_SYNTAX, "3x", "number of vertices"},
     {"OFF\n3 nan 0\n", DIAG_MESH_SYNTAX, "nan", "number of faces"},
+    {"OFF\n3 1 \\\n0\n" TRIANGLE "3 0 1 2\n", DIAG_MESH_SYNTAX, "\\", "number of edges"},
     {"OFF\n3 1 0 7\n" TRIANGLE "3 0 1 2\n", DIAG_MESH_SYNTAX, "7", "end of the line"},
     {"OFF\n4000000000 1 0\n" TRIANGLE, DIAG_MESH_SYNTAX, "4000000000 1", "too short"},
     {"OFF\n3 4000000000 0\n" TRIANGLE, DIAG_MESH_SYNTAX, "3 4000000000", "too short"},
