@@ -3,8 +3,10 @@
 #define WRT_ACCEL_BUNDLE_H
 
 #include "accel/bvh.h"
+#include "base/isa.h"
+#include "math/batch.h"
 
-enum { TARGET_LIST_LIMIT = 32, BUNDLE_LIMIT = 64 };
+enum { TARGET_LIST_LIMIT = 32 };
 
 /* All that some rays can hit. */
 struct target_list {
@@ -14,18 +16,28 @@ struct target_list {
     double nearest[TARGET_LIST_LIMIT]; /* no ray of unit length is shorter to the target */
 };
 
-/* Rays to trace together. */
-struct bundle {
-    const struct ray *rays;
-    uint32_t n;                     /* at most BUNDLE_LIMIT */
-    bool common_origin;             /* all have the same */
-    const struct target_list *list; /* they can hit nothing else */
+/* What an instruction set has its own code for.  The rays of a batch against a usable list. */
+struct bundle_kernels {
+    /* Nearest hits; a hit's prim is PRIM_NONE where there is none. */
+    void (*closest)(const struct geometry *g, const struct ray_batch *rays,
+                    const struct target_list *list, struct hit_batch *hits);
+    /* Any hits: prim is PRIM_NONE where there is none, the rest says nothing. */
+    void (*any)(const struct geometry *g, const struct ray_batch *rays,
+                const struct target_list *list, struct hit_batch *hits);
 };
 
-/* accel_closest for all of them. */
-void bundle_closest(const struct accel *a, const struct bundle *b, struct hit *hits);
+extern const struct bundle_kernels bundle_plain, bundle_generic, bundle_avx2, bundle_avx512;
+
+/* Those of an available instruction set. */
+const struct bundle_kernels *bundle_kernels_of(enum isa isa);
+
+/* accel_closest for all rays, which can hit nothing but the list's targets. */
+void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
+                    const struct ray_batch *rays, const struct target_list *list,
+                    struct hit_batch *hits);
 
 /* accel_any for all of them. */
-void bundle_any(const struct accel *a, const struct bundle *b, bool *blocked);
+void bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
+                const struct ray_batch *rays, const struct target_list *list, bool *blocked);
 
 #endif

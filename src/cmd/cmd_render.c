@@ -128,6 +128,7 @@ static void choose_sampling(struct run *r)
     to->show = o->show;
     to->brute_force = o->brute_force;
     to->no_skip = o->no_skip;
+    to->isa = o->isa;
 }
 
 /* What OpenMesh finds in each mesh, for --verbose. */

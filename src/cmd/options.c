@@ -128,7 +128,10 @@ static int take_word(enum opt o, const char *text, const char *const *words)
             return i;
         str_nearest_try(&nearest, str_of(words[i]));
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'",
-                 i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
+                 i == 0         ? ""
+                 : words[i + 1] ? ", "
+                                : " or ",
+                 words[i]);
     }
     struct str meant = str_nearest_found(&nearest);
     if (meant.n)
@@ -169,6 +172,20 @@ static bool take_accel(const char *text, struct options *out)
     static const char *const words[] = {"none", NULL};
     out->brute_force = true;
     return take_word(OPT_ACCEL, text, words) >= 0;
+}
+
+static bool take_isa(const char *text, struct options *out)
+{
+    const char *words[ISA_COUNT + 1] = {NULL};
+    for (int i = 0; i < ISA_COUNT; i++)
+        words[i] = isa_name((enum isa)i);
+    int i = take_word(OPT_ISA, text, words);
+    if (i < 0)
+        return false;
+    out->isa = (enum isa)i;
+    if (!isa_available(out->isa))
+        usage_error("--isa: this machine or build has no %s", words[i]);
+    return isa_available(out->isa);
 }
 
 static bool take_define(const char *text, struct options *out)
@@ -212,6 +229,8 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return take_show(text, out);
     case OPT_ACCEL:
         return take_accel(text, out);
+    case OPT_ISA:
+        return take_isa(text, out);
     case OPT_DEFINE:
         return take_define(text, out);
     case OPT_STATS:
@@ -343,6 +362,7 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
     *out = (struct options){.grid = 1,
                             .depth = 3,
                             .threads = thread_cores(),
+                            .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000};
     bool options_end = false;
     for (int i = 1; i < argc;) {

@@ -28,6 +28,7 @@ struct options {
     uint64_t seed;
     size_t max_objects;
     enum render_show show;
+    enum isa isa;
     enum stats_format stats;
     enum diag_format format;
     bool jitter, brute_force, no_skip, quiet, verbose;

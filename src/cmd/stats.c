@@ -37,17 +37,20 @@ static void render_json(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
     const struct render_stats *r = &s->render;
-    print_json(json_pack(
-        "{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:i, s:{s:I, s:I, s:I, s:I}, s:I, s:I,"
-        " s:I, s:o, s:I}",
-        "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s", r->render_s,
-        "write_s", s->write_s, "total_s", s->total_s, "threads", (int)o->threads, "isa", "generic",
-        "width", (int)s->width, "height", (int)s->height, "samples", (int)(o->grid * o->grid),
-        "rays", "primary", (json_int_t)r->primary, "shadow", (json_int_t)r->shadow, "reflection",
-        (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction, "shadow_rays_skipped",
-        (json_int_t)r->shadow_skipped, "surfaces", (json_int_t)scene->surfaces.n, "triangles",
-        (json_int_t)count_triangles(scene), "skipped", skipped_names(scene), "peak_rss_bytes",
-        (json_int_t)peak_rss_bytes()), o);
+    print_json(json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:i, s:{s:I, s:I, "
+                         "s:I, s:I}, s:I, s:I,"
+                         " s:I, s:o, s:I}",
+                         "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s,
+                         "render_s", r->render_s, "write_s", s->write_s, "total_s", s->total_s,
+                         "threads", (int)o->threads, "isa", isa_name(o->isa), "width",
+                         (int)s->width, "height", (int)s->height, "samples",
+                         (int)(o->grid * o->grid), "rays", "primary", (json_int_t)r->primary,
+                         "shadow", (json_int_t)r->shadow, "reflection", (json_int_t)r->reflection,
+                         "refraction", (json_int_t)r->refraction, "shadow_rays_skipped",
+                         (json_int_t)r->shadow_skipped, "surfaces", (json_int_t)scene->surfaces.n,
+                         "triangles", (json_int_t)count_triangles(scene), "skipped",
+                         skipped_names(scene), "peak_rss_bytes", (json_int_t)peak_rss_bytes()),
+               o);
 }
 
 static void render_text(const struct run_stats *s, const struct options *o,
@@ -55,14 +58,17 @@ static void render_text(const struct run_stats *s, const struct options *o,
 {
     const struct render_stats *r = &s->render;
     uint64_t rays = r->primary + r->shadow + r->reflection + r->refraction;
-    fprintf(stderr, "picture    %u x %u, %u sample%s a pixel, %u thread%s\n", s->width, s->height,
-            o->grid * o->grid, o->grid > 1 ? "s" : "", o->threads, o->threads > 1 ? "s" : "");
+    fprintf(stderr, "picture    %u x %u, %u sample%s a pixel, %u thread%s, %s\n", s->width,
+            s->height, o->grid * o->grid, o->grid > 1 ? "s" : "", o->threads,
+            o->threads > 1 ? "s" : "", isa_name(o->isa));
     fprintf(stderr, "scene      %zu surfaces, %zu triangles, %zu lights, %zu textures\n",
             scene->surfaces.n, count_triangles(scene), scene->lights.n, scene->textures.n);
-    fprintf(stderr, "seconds    parse %.4f, load %.4f, build %.4f, render %.4f, write %.4f; %.4f in all\n",
+    fprintf(stderr,
+            "seconds    parse %.4f, load %.4f, build %.4f, render %.4f, write %.4f; %.4f in all\n",
             s->parse_s, s->load_s, r->build_s, r->render_s, s->write_s, s->total_s);
     fprintf(stderr,
-            "rays       primary %llu, shadow %llu, reflection %llu, refraction %llu; %.2f million a second\n",
+            "rays       primary %llu, shadow %llu, reflection %llu, refraction %llu; %.2f million "
+            "a second\n",
             (unsigned long long)r->primary, (unsigned long long)r->shadow,
             (unsigned long long)r->reflection, (unsigned long long)r->refraction,
             r->render_s > 0 ? (double)rays / r->render_s * 1e-6 : 0);
@@ -89,9 +95,12 @@ void stats_print_check(const struct check_stats *s, const struct options *o)
                              (json_int_t)s->lights, "materials", (json_int_t)s->materials,
                              "textures", (json_int_t)s->textures, "errors", (json_int_t)s->errors,
                              "warnings", (json_int_t)s->warnings, "peak_rss_bytes",
-                             (json_int_t)peak_rss_bytes()), o);
+                             (json_int_t)peak_rss_bytes()),
+                   o);
     else if (o->stats == STATS_TEXT)
-        fprintf(stderr, "%s: %zu surfaces, %zu lights, %zu materials, %zu textures; %.4f s, %.1f MB at most\n",
-                s->scene, s->surfaces, s->lights, s->materials, s->textures, s->parse_s,
-                (double)peak_rss_bytes() * 1e-6);
+        fprintf(
+            stderr,
+            "%s: %zu surfaces, %zu lights, %zu materials, %zu textures; %.4f s, %.1f MB at most\n",
+            s->scene, s->surfaces, s->lights, s->materials, s->textures, s->parse_s,
+            (double)peak_rss_bytes() * 1e-6);
 }

@@ -13,7 +13,7 @@ _Static_assert(TILE *TILE == BATCH, "one sample a pixel of a tile makes a batch"
 /* A part of the picture cut into tiles that threads take in turn. */
 struct job {
     const struct tracer *tracer;
-    struct worker *workers;
+    struct worker **workers; /* one a thread */
     struct picture *out;
     uint32_t x0, y0, x1, y1; /* of the whole picture, top left origin */
     uint32_t columns;        /* tiles in a row */
@@ -23,21 +23,15 @@ struct job {
     size_t tiles;
 };
 
-static struct ray camera_ray(const struct tracer *t, struct vec3 direction)
-{
-    return (struct ray){.origin = t->lens.origin,
-                        .direction = direction,
-                        .t_max = RAY_UNBOUNDED,
-                        .from = PRIM_NONE,
-                        .surface = SURFACE_NONE};
-}
-
 /* Which of the samples of each pixel is traced, and where it is: the offset from the pixel's
  * corner, in pixels. */
 struct sample {
     uint32_t k, l;
     double x, y;
 };
+
+/* The one sample of pictures that show something else. */
+static const struct sample corner = {0, 0, 0, 0};
 
 /* The original's rule: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
  * at the pixel's corner, n x n are spread around it.  move_x and move_y jitter it, from 0 to 1. */
@@ -50,25 +44,6 @@ static void place_sample(struct sample *s, double n, double move_x, double move_
         s->x = (s->k + move_x) / n - 1 / (2 * n);
         s->y = (s->l + move_y) / n - 1 / (2 * n);
     }
-}
-
-static struct vec3 sample_direction(const struct tracer *t, uint32_t i, uint32_t j, struct sample s)
-{
-    const struct render_options *o = t->options;
-    if (o->jitter) {
-        uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s.l * o->grid + s.k;
-        place_sample(&s, o->grid, rng_uniform(o->seed, pixel, number, 0),
-                     rng_uniform(o->seed, pixel, number, 1));
-    }
-    return lens_direction(&t->lens, (i + s.x) / o->width, (j + s.y) / o->height);
-}
-
-/* The one ray of pixel (x, y), top left origin, of pictures that show something else. */
-static struct ray corner_ray(const struct tracer *t, uint32_t x, uint32_t y)
-{
-    const struct render_options *o = t->options;
-    uint32_t j = o->height - 1 - y;
-    return camera_ray(t, lens_direction(&t->lens, x / (double)o->width, j / (double)o->height));
 }
 
 struct tile {
@@ -91,88 +66,99 @@ static void report_progress(struct job *job, unsigned worker)
         p->report(p->context, (double)done / (double)job->tiles);
 }
 
-/* Adds this sample of all the tile's pixels to their sums, row by row. */
-static void add_samples(struct worker *w, const struct tile *tile, struct sample sample,
-                        struct vec3 *sums)
+/* Where in pixel (i, j), j counted from the bottom, its sample is: jittered anew for each pixel. */
+static struct sample jittered(const struct render_options *o, uint32_t i, uint32_t j,
+                              struct sample s)
 {
-    struct ray rays[BATCH];
-    struct vec3 colours[BATCH];
-    const struct tracer *t = w->tracer;
-    uint32_t n = 0;
-    for (uint32_t y = tile->y0; y < tile->y1; y++) {
-        for (uint32_t x = tile->x0; x < tile->x1; x++) {
-            uint32_t j = t->options->height - 1 - y;
-            rays[n++] = camera_ray(t, sample_direction(t, x, j, sample));
-        }
-    }
-    w->stats.primary += n;
-    trace_batch(w, 0, rays, NULL, n, colours);
-    for (uint32_t i = 0; i < n; i++)
-        sums[i] = vec3_add(sums[i], colours[i]);
+    uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s.l * o->grid + s.k;
+    place_sample(&s, o->grid, rng_uniform(o->seed, pixel, number, 0),
+                 rng_uniform(o->seed, pixel, number, 1));
+    return s;
 }
 
-static void sample_tile(struct worker *w, const struct tile *tile, struct vec3 *colours)
+/* The camera rays through this sample of all the tile's pixels, row by row. */
+static const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
+                                           const struct sample *sample)
+{
+    const struct tracer *t = w->tracer;
+    const struct render_options *o = t->options;
+    struct ray_batch *rays = &w->camera_rays;
+    double u[BATCH_ROOM], v[BATCH_ROOM];
+    rays->n = 0;
+    for (uint32_t y = tile->y0; y < tile->y1; y++) {
+        for (uint32_t x = tile->x0; x < tile->x1; x++) {
+            uint32_t j = o->height - 1 - y;
+            struct sample s = o->jitter ? jittered(o, x, j, *sample) : *sample;
+            u[rays->n] = (x + s.x) / o->width;
+            v[rays->n++] = (j + s.y) / o->height;
+        }
+    }
+    for (uint32_t i = rays->n; i < BATCH_ROOM; i++)
+        u[i] = v[i] = 0;
+    t->kernels->aim(&t->lens, u, v, rays->n, &rays->direction);
+    return rays;
+}
+
+/* Adds this sample of all the tile's pixels to their sums. */
+static void add_samples(struct worker *w, const struct tile *tile, const struct sample *sample,
+                        struct vec3_batch *sums)
+{
+    const struct ray_batch *rays = camera_rays(w, tile, sample);
+    w->stats.primary += rays->n;
+    trace_batch(w, 0, rays, NULL, &w->colours);
+    for (uint32_t i = 0; i < rays->n; i++)
+        vec3_put(sums, i, vec3_add(vec3_get(sums, i), vec3_get(&w->colours, i)));
+}
+
+static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_batch *colours)
 {
     uint32_t n = w->tracer->options->grid;
     for (uint32_t i = 0; i < BATCH; i++)
-        colours[i] = vec3_all(0);
+        vec3_put(colours, i, vec3_all(0));
     for (uint32_t k = 0; k < n; k++) {
         for (uint32_t l = 0; l < n; l++) {
             struct sample sample = {.k = k, .l = l};
             place_sample(&sample, n, 0, 0);
-            add_samples(w, tile, sample, colours);
+            add_samples(w, tile, &sample, colours);
         }
     }
     double samples = (double)n * n;
     for (uint32_t i = 0; i < BATCH && n > 1; i++)
-        colours[i] = vec3(colours[i].x / samples, colours[i].y / samples, colours[i].z / samples);
-}
-
-static void show_tile(struct job *job, struct worker *w, const struct tile *tile,
-                      struct vec3 *colours)
-{
-    const struct tracer *t = w->tracer;
-    uint32_t n = 0;
-    for (uint32_t y = tile->y0; y < tile->y1; y++) {
-        for (uint32_t x = tile->x0; x < tile->x1; x++) {
-            struct ray ray = corner_ray(t, x, y);
-            colours[n++] = show_colour(t, &ray, job->range, job->out->bytes != NULL);
-        }
-    }
-    w->stats.primary += n;
+        vec3_put(colours, i,
+                 vec3(colours->x[i] / samples, colours->y[i] / samples, colours->z[i] / samples));
 }
 
 static void render_tile(void *context, size_t number, unsigned worker)
 {
     struct job *job = context;
+    struct worker *w = job->workers[worker];
     struct tile tile = tile_of(job, number);
-    struct vec3 colours[BATCH];
-    if (job->tracer->options->show == SHOW_PICTURE)
-        sample_tile(&job->workers[worker], &tile, colours);
-    else
-        show_tile(job, &job->workers[worker], &tile, colours);
+    struct vec3_batch colours;
+    if (job->tracer->options->show == SHOW_PICTURE) {
+        sample_tile(w, &tile, &colours);
+    } else {
+        const struct ray_batch *rays = camera_rays(w, &tile, &corner);
+        w->stats.primary += rays->n;
+        show_batch(w, rays, job->range, job->out->bytes != NULL, &colours);
+    }
     uint32_t n = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++)
         for (uint32_t x = tile.x0; x < tile.x1; x++)
-            picture_set(job->out, x - job->x0, y - job->y0, colours[n++]);
+            picture_set(job->out, x - job->x0, y - job->y0, vec3_get(&colours, n++));
     report_progress(job, worker);
 }
 
 static void find_range_of_tile(void *context, size_t number, unsigned worker)
 {
     struct job *job = context;
-    const struct tracer *t = job->tracer;
+    struct worker *w = job->workers[worker];
     struct tile tile = tile_of(job, number);
     double *range = job->ranges[worker];
-    for (uint32_t y = tile.y0; y < tile.y1; y++) {
-        for (uint32_t x = tile.x0; x < tile.x1; x++) {
-            struct ray ray = corner_ray(t, x, y);
-            struct hit hit;
-            if (!accel_closest(&t->accel, &ray, &hit))
-                continue;
-            range[0] = hit.t < range[0] ? hit.t : range[0];
-            range[1] = hit.t > range[1] ? hit.t : range[1];
-        }
+    find_points(w, camera_rays(w, &tile, &corner), NULL);
+    for (uint32_t k = 0; k < w->points.n; k++) {
+        double t = w->points.t[k];
+        range[0] = t < range[0] ? t : range[0];
+        range[1] = t > range[1] ? t : range[1];
     }
 }
 
@@ -212,6 +198,8 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
                          .lens = lens_of(&scene->camera, options->width, options->height),
                          .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps)};
     t->skips = !options->no_skip && !options->brute_force;
+    t->bundles = bundle_kernels_of(options->isa);
+    t->kernels = render_kernels_of(t->skips ? options->isa : ISA_PLAIN);
     accel_build(&t->accel, &scene->geometry, options->brute_force);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
@@ -245,6 +233,21 @@ static void add_stats(struct render_stats *sum, const struct render_stats *more)
     sum->shadow_skipped += more->shadow_skipped;
 }
 
+/* A worker whose camera rays lack nothing but their directions. */
+static struct worker *camera_worker(const struct tracer *t)
+{
+    struct worker *w = worker_new(t);
+    struct ray_batch *rays = &w->camera_rays;
+    rays->common_origin = true;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++) {
+        vec3_put(&rays->origin, i, t->lens.origin);
+        rays->t_max[i] = RAY_UNBOUNDED;
+        rays->from[i] = PRIM_NONE;
+    }
+    w->shadow_rays.spawned = true;
+    return w;
+}
+
 void render_scene(const struct scene *scene, const struct render_options *options,
                   struct picture *out, struct render_stats *stats)
 {
@@ -253,9 +256,9 @@ void render_scene(const struct scene *scene, const struct render_options *option
     tracer_init(&tracer, scene, options);
     double built = thread_seconds();
     struct job job = {.tracer = &tracer, .out = out};
-    job.workers = mem_zalloc(options->threads, sizeof *job.workers);
+    job.workers = mem_alloc(options->threads, sizeof *job.workers);
     for (unsigned i = 0; i < options->threads; i++)
-        worker_init(&job.workers[i], &tracer);
+        job.workers[i] = camera_worker(&tracer);
     if (options->show == SHOW_DEPTH && out->bytes)
         find_range(&job);
     cut_tiles(&job, options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
@@ -263,8 +266,8 @@ void render_scene(const struct scene *scene, const struct render_options *option
     *stats =
         (struct render_stats){.build_s = built - started, .render_s = thread_seconds() - built};
     for (unsigned i = 0; i < options->threads; i++) {
-        add_stats(stats, &job.workers[i].stats);
-        worker_free(&job.workers[i]);
+        add_stats(stats, &job.workers[i]->stats);
+        worker_free(job.workers[i]);
     }
     free(job.workers);
     tracer_free(&tracer);

@@ -2,6 +2,7 @@
 #ifndef WRT_RENDER_RENDER_H
 #define WRT_RENDER_RENDER_H
 
+#include "base/isa.h"
 #include "image/picture.h"
 #include "scene/scene.h"
 
@@ -17,16 +18,19 @@ struct render_progress {
 };
 
 struct render_options {
-    uint32_t width, height;  /* of the whole picture */
-    struct { uint32_t x0, y0, x1, y1; } crop; /* pixels, top left origin, x1 and y1 outside */
-    uint32_t grid;           /* grid x grid samples a pixel, >= 1 */
+    uint32_t width, height; /* of the whole picture */
+    struct {
+        uint32_t x0, y0, x1, y1;
+    } crop;        /* pixels, top left origin, x1 and y1 outside */
+    uint32_t grid; /* grid x grid samples a pixel, >= 1 */
     bool jitter;
     uint64_t seed;
-    uint32_t depth;          /* rays deeper than this are black; the original's 3 */
-    unsigned threads;        /* >= 1 */
+    uint32_t depth;   /* rays deeper than this are black; the original's 3 */
+    unsigned threads; /* >= 1 */
     enum render_show show;
-    bool brute_force;        /* no BVH: every primitive is tested against every ray */
-    bool no_skip;            /* every optimisation that can be left out is off: same bytes */
+    bool brute_force; /* no BVH: every primitive is tested against every ray */
+    bool no_skip;     /* every optimisation that can be left out is off: same bytes */
+    enum isa isa;     /* an available one: same bytes */
     struct render_progress progress; /* report may be NULL */
 };
 

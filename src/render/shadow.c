@@ -95,19 +95,20 @@ static bool lets_light(const struct tracer *t, const struct target_list *list)
 }
 
 /* A ray is blocked when its nearest hit is not emissive; where nothing is emissive, when it hits
- * anything. */
-static void find_blocked(struct worker *w, const struct bundle *b, bool *blocked)
+ * anything.  Traces w->shadow_rays. */
+static void find_blocked(struct worker *w, const struct target_list *list, bool *blocked)
 {
     const struct tracer *t = w->tracer;
-    struct hit hits[BATCH];
-    w->stats.shadow += b->n;
-    if (!lets_light(t, b->list)) {
-        bundle_any(&t->accel, b, blocked);
+    const struct ray_batch *rays = &w->shadow_rays;
+    struct hit_batch hits;
+    w->stats.shadow += rays->n;
+    if (!lets_light(t, list)) {
+        bundle_any(&t->accel, t->bundles, rays, list, blocked);
         return;
     }
-    bundle_closest(&t->accel, b, hits);
-    for (uint32_t i = 0; i < b->n; i++)
-        blocked[i] = hits[i].prim != PRIM_NONE && !is_emissive(t, hits[i].prim);
+    bundle_closest(&t->accel, t->bundles, rays, list, &hits);
+    for (uint32_t i = 0; i < rays->n; i++)
+        blocked[i] = hits.prim[i] != PRIM_NONE && !is_emissive(t, (uint32_t)hits.prim[i]);
 }
 
 /* What a ball of directions, seen from a point, is to a ball in the scene. */
@@ -224,15 +225,26 @@ struct tally {
     uint64_t counted, lit;
 };
 
-static void add_to_tally(struct worker *w, const struct target_list *list, const struct ray *rays,
-                         const uint32_t *counts, uint32_t n, struct tally *tally)
+/* Traces the rays gathered and empties them. */
+static void add_to_tally(struct worker *w, const struct target_list *list, const uint32_t *counts,
+                         struct tally *tally)
 {
     bool blocked[BATCH];
-    find_blocked(w, &(struct bundle){rays, n, true, list}, blocked);
-    for (uint32_t i = 0; i < n; i++) {
+    find_blocked(w, list, blocked);
+    for (uint32_t i = 0; i < w->shadow_rays.n; i++) {
         tally->counted += counts[i];
         tally->lit += blocked[i] ? 0 : counts[i];
     }
+    w->shadow_rays.n = 0;
+}
+
+static void add_shadow_ray(struct ray_batch *rays, const struct ray *ray)
+{
+    uint32_t i = rays->n++;
+    vec3_put(&rays->origin, i, ray->origin);
+    vec3_put(&rays->direction, i, ray->direction);
+    rays->t_max[i] = ray->t_max;
+    rays->from[i] = ray->from;
 }
 
 /* The share of the lamp's samples that are lit, each tried. */
@@ -242,23 +254,24 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
     const struct light *light = lamp->light;
     double reach = vec3_length(vec3_sub(light->position, s->p));
     struct tally tally = {0, 0};
-    struct ray rays[BATCH];
-    uint32_t counts[BATCH], n = 0;
+    struct ray_batch *rays = &w->shadow_rays;
+    uint32_t counts[BATCH];
+    rays->n = 0;
+    rays->common_origin = true;
     for (size_t i = 0; i < light->points.n; i++) {
         const struct light_point *sample = &light->points.at[i];
         if (!sample_counts(lamp, sample, s, w->tracer->skips))
             continue;
-        rays[n] = shadow_ray(s, sample->position, 0);
-        double t_max = reach / vec3_length(rays[n].direction);
-        rays[n].t_max = t_max <= RAY_UNBOUNDED ? t_max : RAY_UNBOUNDED;
-        counts[n++] = sample->count;
-        if (n == BATCH) {
-            add_to_tally(w, list, rays, counts, n, &tally);
-            n = 0;
-        }
+        struct ray ray = shadow_ray(s, sample->position, 0);
+        double t_max = reach / vec3_length(ray.direction);
+        ray.t_max = t_max <= RAY_UNBOUNDED ? t_max : RAY_UNBOUNDED;
+        counts[rays->n] = sample->count;
+        add_shadow_ray(rays, &ray);
+        if (rays->n == BATCH)
+            add_to_tally(w, list, counts, &tally);
     }
-    if (n > 0)
-        add_to_tally(w, list, rays, counts, n, &tally);
+    if (rays->n > 0)
+        add_to_tally(w, list, counts, &tally);
     return tally.counted ? (double)tally.lit / (double)tally.counted : 0;
 }
 
@@ -282,53 +295,58 @@ static double area_share(struct worker *w, const struct lamp *lamp, const struct
     return hidden ? 0 : 1;
 }
 
-static bool is_glowing(const struct shade_point *s)
-{
-    return s->finish->material->kind == MATERIAL_EMISSIVE;
-}
-
 /* Nothing stands between any of the points and the lamp. */
-static void open_shares(struct worker *w, uint32_t n, double *shares)
+static void open_shares(struct worker *w, double *shares)
 {
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < w->points.n; i++) {
         shares[i] = 1;
-        w->stats.shadow_skipped += !is_glowing(&w->points[i]);
+        w->stats.shadow_skipped += !w->points.finish[i]->glows;
     }
 }
 
 static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
-                         uint32_t n, double *shares)
+                         double *shares)
 {
-    struct ray rays[BATCH];
+    const struct shade_batch *points = &w->points;
+    struct ray_batch *rays = &w->shadow_rays;
     bool blocked[BATCH];
-    uint32_t which[BATCH], count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        shares[i] = 1;
-        if (is_glowing(&w->points[i]))
+    uint32_t which[BATCH];
+    rays->n = 0;
+    for (uint32_t k = 0; k < points->n; k++) {
+        shares[k] = 1;
+        if (points->finish[k]->glows)
             continue;
-        which[count] = i;
-        rays[count++] = shadow_ray(&w->points[i], lamp->light->position, 1);
+        struct vec3 p = vec3_get(&points->p, k);
+        uint32_t i = rays->n++;
+        vec3_put(&rays->origin, i, p);
+        vec3_put(&rays->direction, i, vec3_sub(lamp->light->position, p));
+        rays->t_max[i] = 1;
+        rays->from[i] = points->prim[k];
+        which[i] = k;
     }
-    if (count == 0)
+    if (rays->n == 0)
         return;
-    find_blocked(w, &(struct bundle){rays, count, count == 1, list}, blocked);
-    for (uint32_t i = 0; i < count; i++)
+    rays->common_origin = rays->n == 1;
+    find_blocked(w, list, blocked);
+    for (uint32_t i = 0; i < rays->n; i++)
         shares[which[i]] = blocked[i] ? 0 : 1;
 }
 
-void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint32_t n,
-                 double *shares)
+void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares)
 {
+    uint32_t n = w->points.n;
     struct target_list list = {.usable = false};
     if (w->tracer->skips && n > 1)
         list_shadowers(w->tracer, lamp, box, &list);
     if (lamp->light->kind == LIGHT_POINT) {
         if (list.usable && list.n == 0)
-            open_shares(w, n, shares);
+            open_shares(w, shares);
         else
-            point_shares(w, lamp, &list, n, shares);
+            point_shares(w, lamp, &list, shares);
         return;
     }
-    for (uint32_t i = 0; i < n; i++)
-        shares[i] = is_glowing(&w->points[i]) ? 1 : area_share(w, lamp, &list, &w->points[i]);
+    for (uint32_t i = 0; i < n; i++) {
+        struct shade_point s = shade_point_get(&w->points, i);
+        shares[i] = s.finish->glows ? 1 : area_share(w, lamp, &list, &s);
+    }
 }

@@ -17,17 +17,22 @@ static double distance_grey(double t, const double range[2])
     return 1 - 0.9 * ((t - range[0]) / (range[1] - range[0]));
 }
 
-struct vec3 show_colour(const struct tracer *t, const struct ray *ray, const double range[2],
-                        bool bytes)
+static struct vec3 shown_colour(const struct tracer *t, const struct shade_batch *points,
+                                uint32_t k, const double range[2], bool bytes)
 {
-    struct hit hit;
-    if (!accel_closest(&t->accel, ray, &hit))
-        return vec3_all(0);
     if (t->options->show == SHOW_DEPTH)
-        return vec3_all(bytes ? distance_grey(hit.t, range) : hit.t);
-    struct shade_point s;
-    shade_point_init(&s, t, ray, &hit);
+        return vec3_all(bytes ? distance_grey(points->t[k], range) : points->t[k]);
     if (t->options->show == SHOW_NORMALS)
-        return vec3_add(vec3_scale(s.normal, 0.5), vec3_all(0.5));
-    return number_colour(s.surface);
+        return vec3_add(vec3_scale(vec3_get(&points->normal, k), 0.5), vec3_all(0.5));
+    return number_colour(points->surface[k]);
+}
+
+void show_batch(struct worker *w, const struct ray_batch *rays, const double range[2], bool bytes,
+                struct vec3_batch *colours)
+{
+    for (uint32_t i = 0; i < rays->n; i++)
+        vec3_put(colours, i, vec3_all(0));
+    find_points(w, rays, NULL);
+    for (uint32_t k = 0; k < w->points.n; k++)
+        vec3_put(colours, w->points.ray[k], shown_colour(w->tracer, &w->points, k, range, bytes));
 }

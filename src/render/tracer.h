@@ -10,8 +10,6 @@
 #include "scene/camera.h"
 #include "render/render.h"
 
-enum { BATCH = BUNDLE_LIMIT };
-
 /* A light made ready. */
 struct lamp {
     const struct light *light;
@@ -25,16 +23,20 @@ struct lamp {
 /* What is known of a material beforehand. */
 struct finish {
     const struct material *material;
-    bool bounces;     /* it reflects or refracts */
-    bool dull;        /* no highlight, or 0 times a power that is a number */
-    bool squared;     /* the exponent is whole and small: `power`, multiplied out */
-    unsigned power;
+    struct vec3 specular; /* of direct light; 0 where it has no highlight */
+    unsigned power;       /* of the highlight, where the exponent is whole and small */
+    bool squared;         /* `power` counts: it is multiplied out */
+    bool uneven;          /* neither that nor a plain diffuse term */
+    bool bounces;         /* it reflects or refracts */
+    bool glows;           /* emissive */
 };
 
 struct tracer {
     const struct scene *scene;
     const struct render_options *options;
     struct accel accel;
+    const struct bundle_kernels *bundles;
+    const struct render_kernels *kernels;
     struct lens lens;
     struct lamp *lamps;      /* one a light of the scene */
     struct finish *finishes; /* one a material */
@@ -51,68 +53,156 @@ struct path {
     struct vec3 weight; /* of its colour in its parent's */
 };
 
-/* A hit and what shading needs of it. */
+/* Hits and what shading needs of them. */
+struct shade_batch {
+    uint32_t n;
+    struct vec3_batch incoming; /* unit, direction of travel */
+    struct vec3_batch p, normal;
+    struct vec3_batch diffuse; /* the material's, times its texel */
+    struct vec3_batch specular;
+    alignas(64) double facing[BATCH_ROOM]; /* cosine between normal and incoming */
+    alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
+    alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
+    uint32_t prim[BATCH], surface[BATCH];
+    uint32_t ray[BATCH]; /* place in the batch of rays */
+    double t[BATCH];     /* distance along it */
+    bool inside[BATCH];  /* refracted into the surface it meets: the far side of what it crossed */
+    const struct finish *finish[BATCH];
+    bool any_uneven;  /* some highlight is not multiplied out, some metal is textured */
+    bool any_glowing; /* some is emissive */
+    bool any_bounces;
+};
+
+/* One of them. */
 struct shade_point {
-    struct vec3 incoming; /* unit, direction of travel */
-    struct vec3 p, normal;
-    struct vec3 diffuse; /* the material's, times its texel */
-    double facing;       /* cosine between normal and incoming */
+    struct vec3 incoming, p, normal, diffuse;
+    double facing;
     uint32_t prim, surface;
-    uint32_t ray; /* place in the batch */
-    bool inside;  /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish;
 };
 
-/* Light that arrives at a shade point. */
-struct shade_light {
-    struct vec3 direct;    /* reflected towards the eye */
-    struct vec3 intensity; /* where it bounces: sum over all lights, shadowed or not */
+static inline struct shade_point shade_point_get(const struct shade_batch *b, uint32_t i)
+{
+    return (struct shade_point){vec3_get(&b->incoming, i),
+                                vec3_get(&b->p, i),
+                                vec3_get(&b->normal, i),
+                                vec3_get(&b->diffuse, i),
+                                b->facing[i],
+                                b->prim[i],
+                                b->surface[i],
+                                b->finish[i]};
+}
+
+/* Light that arrives at shade points. */
+struct light_batch {
+    struct vec3_batch direct;    /* reflected towards the eye */
+    struct vec3_batch intensity; /* where it bounces: sum over all lights, shadowed or not */
 };
+
+/* Points that take their colour or normal from textures. */
+struct textured {
+    uint32_t n;
+    uint32_t point[BATCH];   /* which */
+    uint32_t texture[BATCH]; /* whose */
+    double u[BATCH_ROOM], v[BATCH_ROOM];
+};
+
+/* Hits and the primitives they lie on, by kind: from first[kind] to first[kind + 1]. */
+struct hit_shapes {
+    uint32_t first[PRIM_KINDS + 1];
+    bool weighted;            /* some triangle's surface has something to interpolate */
+    struct vec3_batch origin; /* of the ray */
+    alignas(64) double t[BATCH_ROOM];
+    struct vec3_batch at;            /* sphere's center, cylinder's base, triangle's first corner */
+    struct vec3_batch along;         /* cylinder's axis, triangle's normal */
+    struct vec3_batch second, third; /* corners, where weighted */
+    alignas(64) double radius[BATCH_ROOM];
+    alignas(64) double height[BATCH_ROOM];
+    alignas(64) double part[BATCH_ROOM];
+};
+
+/* What an instruction set has its own code for. */
+struct render_kernels {
+    /* The directions of camera rays through picture coordinates u and v, from 0 to 1. */
+    void (*aim)(const struct lens *lens, const double *u, const double *v, uint32_t n,
+                struct vec3_batch *directions);
+    /* Fills in p and normal of the points, whose incoming is known. */
+    void (*hit_points)(const struct geometry *g, const struct hit_shapes *shapes,
+                       struct shade_batch *points);
+    /* Fills in b1 and b2 of points on triangles. */
+    void (*weights)(const struct geometry *g, const struct hit_shapes *shapes,
+                    struct shade_batch *points);
+    /* The texture at n <= BATCH places. */
+    void (*texels)(const struct texture *texture, const double *u, const double *v, uint32_t n,
+                   struct vec3_batch *texels);
+    /* Bends the normals by the texels of normal maps, as the original does: in world coordinates.
+     * Points without a normal map have bent[i] = 0. */
+    void (*bend)(const struct vec3_batch *texels, const double *bent, struct shade_batch *points);
+    /* Adds what the light gives, of which `shares` arrive. */
+    void (*add_light)(const struct shade_batch *points, const struct light *light,
+                      const double *shares, struct light_batch *sums);
+    /* The directions of mirrored rays. */
+    void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
+    struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
+};
+
+extern const struct render_kernels render_plain, render_generic, render_avx2, render_avx512;
 
 /* Rays of the next depth. */
 struct offspring {
-    VEC(struct ray) rays;
-    VEC(struct path) paths;
+    struct ray_batch rays;
+    struct path paths[BATCH];
 };
 
 /* What one depth needs while deeper ones are traced. */
 struct level {
     struct offspring reflected, refracted;
-    struct vec3 colours[BATCH]; /* of the deeper batch */
+    struct vec3_batch colours; /* of the deeper batch */
 };
 
 struct worker {
     const struct tracer *tracer;
     struct render_stats stats;
-    VEC(struct level *) levels;       /* by depth, made when first needed */
-    struct shade_point points[BATCH]; /* hits of the batch being shaded */
-    struct shade_light light[BATCH];
+    VEC(struct level *) levels; /* by depth, made when first needed */
+    struct ray_batch camera_rays;
+    struct vec3_batch colours;
+    /* Of the batch being shaded: */
+    struct hit_batch hits;
+    struct hit_shapes shapes;
+    struct shade_batch points;
+    struct textured bumps, paints; /* by normal maps, by textures */
+    struct light_batch light;
+    struct ray_batch shadow_rays;
 };
 
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force);
 void lamp_free(struct lamp *lamp);
 
-/* shadow.c: the share of the lamp's light that reaches each of the first n of w->points, which lie
- * in the box. */
-void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, uint32_t n,
-                 double *shares);
+/* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box. */
+void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
+
+/* points.c: fills in w->points with the hits of the rays; paths is NULL for camera rays. */
+void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths);
 
 /* shade.c */
 struct finish finish_of(const struct material *m);
-void shade_point_init(struct shade_point *s, const struct tracer *t, const struct ray *ray,
-                      struct hit *hit);
-/* Fills in w->light for the first n of w->points. */
-void shade_points(struct worker *w, uint32_t n);
+/* Diffuse reflection of light from a direction of this cosine. */
+struct vec3 finish_diffuse(const struct finish *f, struct vec3 diffuse, double cosine);
+/* How bright the highlight is: the cosine to the power of the exponent. */
+double finish_highlight(const struct finish *f, double cosine);
+const struct render_kernels *render_kernels_of(enum isa isa);
+/* Fills in w->light for w->points. */
+void shade_points(struct worker *w);
 
-/* trace.c: the colours seen along n <= BATCH rays; paths is NULL for camera rays. */
-void trace_batch(struct worker *w, uint32_t depth, const struct ray *rays, const struct path *paths,
-                 uint32_t n, struct vec3 *colours);
-void worker_init(struct worker *w, const struct tracer *tracer);
+/* trace.c: the colours seen along the rays; paths is NULL for camera rays. */
+void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
+                 const struct path *paths, struct vec3_batch *colours);
+struct worker *worker_new(const struct tracer *tracer);
 void worker_free(struct worker *w);
 
-/* show.c: what the camera ray shows instead of its colour.  `range` holds the smallest and the
- * largest distance in the whole picture. */
-struct vec3 show_colour(const struct tracer *t, const struct ray *ray, const double range[2],
-                        bool bytes);
+/* show.c: what is shown along the rays instead of their colours.  `range` holds the smallest and
+ * the largest distance in the whole picture. */
+void show_batch(struct worker *w, const struct ray_batch *rays, const double range[2], bool bytes,
+                struct vec3_batch *colours);
 
 #endif

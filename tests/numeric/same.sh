@@ -48,6 +48,12 @@ compare()
     note "$(cmp -s "$tmp/$1.ppm" "$tmp/$2.ppm" && echo same)" "${@:3}"
 }
 
+# The instruction sets of this machine but the one that is used anyway.
+others=
+for isa in plain generic avx2; do
+    "$wrt" render "${scenes[0]}" --res 1x1 -o "$tmp/x.ppm" --isa $isa 2>/dev/null && others="$others $isa"
+done
+
 for scene in "${scenes[@]}"; do
     if "$wrt" render "$scene" --res 1x1 -o "$tmp/x.ppm" 2>&1 | grep -q 'was built without'; then
         echo "SKIP: $(basename "$scene") needs what this wrt was built without"
@@ -59,6 +65,9 @@ for scene in "${scenes[@]}"; do
     compare whole other -t 7
     compare whole other --accel none
     compare whole other --no-skip
+    for isa in $others; do
+        compare whole other --isa "$isa"
+    done
     render whole -t 1 -s 2 --jitter
     compare whole other -t 3 -s 2 --jitter --no-skip
     # the middle of the picture, cut out of the whole

@@ -157,6 +157,20 @@ START_TEST(tree_agrees_with_brute_force)
 }
 END_TEST
 
+static void batch_of(struct ray_batch *batch, const struct ray *rays, uint32_t n, bool common_origin)
+{
+    memset(batch, 0, sizeof *batch);
+    batch->n = n;
+    batch->common_origin = common_origin;
+    batch->spawned = rays[0].spawned;
+    for (uint32_t i = 0; i < n; i++) {
+        vec3_put(&batch->origin, i, rays[i].origin);
+        vec3_put(&batch->direction, i, rays[i].direction);
+        batch->t_max[i] = rays[i].t_max;
+        batch->from[i] = rays[i].from;
+    }
+}
+
 /* Endless rays from a box into a cone of directions. */
 START_TEST(bundles_see_what_single_rays_see)
 {
@@ -169,14 +183,18 @@ START_TEST(bundles_see_what_single_rays_see)
     accel_build(&tree, &g, false);
     uint32_t usable = 0;
     for (int round = 0; round < TRIES(800); round++) {
-        struct ray rays[BUNDLE_LIMIT];
-        struct hit hits[BUNDLE_LIMIT], alone;
+        struct ray rays[BATCH];
+        struct ray_batch batch;
+        struct hit_batch hits;
+        struct hit alone;
         struct box origins = box_empty(), directions = box_empty();
         struct vec3 from = random_vector(20 * size), to = any_target(&g, size);
         double spread = below(2) ? 0 : size * uniform(0, 1);
-        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+        bool spawned = below(2);
+        for (int i = 0; i < BATCH; i++) {
             rays[i] = any_ray(&g, size);
             rays[i].surface = SURFACE_NONE;
+            rays[i].spawned = spawned;
             rays[i].t_max = RAY_UNBOUNDED;
             rays[i].origin = vec3_add(from, random_vector(spread));
             rays[i].direction =
@@ -190,11 +208,12 @@ START_TEST(bundles_see_what_single_rays_see)
         if (list.usable)
             shaft_sort(&tree, &shaft, &list);
         usable += list.usable;
-        struct bundle bundle = {rays, BUNDLE_LIMIT, spread == 0, &list};
-        bundle_closest(&tree, &bundle, hits);
-        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+        batch_of(&batch, rays, BATCH, spread == 0);
+        bundle_closest(&tree, bundle_kernels_of(isa_best()), &batch, &list, &hits);
+        for (int i = 0; i < BATCH; i++) {
             accel_closest(&tree, &rays[i], &alone);
-            ck_assert(same_hit(&hits[i], &alone));
+            struct hit hit = hit_get(&hits, (uint32_t)i);
+            ck_assert(same_hit(&hit, &alone));
         }
     }
     ck_assert_uint_gt(usable, TRIES(400));
@@ -214,14 +233,14 @@ START_TEST(shafts_hold_all_shadow_rays)
     struct accel tree;
     accel_build(&tree, &g, false);
     for (int round = 0; round < TRIES(800); round++) {
-        struct ray rays[BUNDLE_LIMIT];
-        bool blocked[BUNDLE_LIMIT];
+        struct ray rays[BATCH];
+        bool blocked[BATCH];
         struct box p = box_empty(), q = box_empty();
         struct vec3 from = random_vector(20 * size), near = any_target(&g, size);
         struct vec3 lamp = random_vector(15 * size);
         double t_max = below(2) ? 1 : uniform(1, 3);
         uint32_t n = 0;
-        for (int i = 0; i < BUNDLE_LIMIT; i++) {
+        for (int i = 0; i < BATCH; i++) {
             struct ray ray = any_ray(&g, size);
             struct hit hit;
             struct vec3 normal;
@@ -245,8 +264,9 @@ START_TEST(shafts_hold_all_shadow_rays)
         struct target_list list;
         struct shaft shaft = shaft_between(&tree, p, q, t_max);
         shaft_list(&tree, &shaft, &list);
-        struct bundle bundle = {rays, n, n == 1, &list};
-        bundle_any(&tree, &bundle, blocked);
+        struct ray_batch batch;
+        batch_of(&batch, rays, n, n == 1);
+        bundle_any(&tree, bundle_kernels_of(isa_best()), &batch, &list, blocked);
         for (uint32_t i = 0; i < n; i++)
             ck_assert_int_eq(blocked[i], accel_any(&tree, &rays[i]));
     }

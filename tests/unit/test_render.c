@@ -166,6 +166,7 @@ static void make_scene(struct scene *s, double scale, bool glow)
 static struct render_options whole_picture(const struct scene *s)
 {
     struct render_options o = {
+        .isa = isa_best(),
         .width = s->camera.width, .height = s->camera.height, .grid = 1, .depth = 5, .threads = 1};
     o.crop.x1 = o.width;
     o.crop.y1 = o.height;
@@ -210,6 +211,11 @@ START_TEST(no_option_changes_a_bit)
     check_same(&s, &o, expected);
     o.threads = 7;
     check_same(&s, &o, expected);
+    for (int isa = 0; isa < ISA_COUNT; isa++) {
+        o.isa = (enum isa)isa;
+        if (isa_available(o.isa))
+            check_same(&s, &o, expected);
+    }
     o.no_skip = true;
     check_same(&s, &o, expected);
     o.brute_force = true;

@@ -11,6 +11,7 @@ Suite *eval_suite(void);
 Suite *formats_suite(void);
 Suite *geometry_suite(void);
 Suite *image_suite(void);
+Suite *kernels_suite(void);
 Suite *lower_suite(void);
 Suite *mesh_suite(void);
 Suite *render_suite(void);

@@ -1,0 +1,311 @@
+/* Vectors of doubles for the kernels, as wide as the file that includes this is compiled for.
+ *
+ * Arithmetic is by the operators, lane by lane, and rounds as for single doubles.  Nothing here
+ * fuses or reorders, so that a kernel gives the same bits at any width. */
+#ifndef WRT_MATH_LANES_H
+#define WRT_MATH_LANES_H
+
+#include "math/batch.h"
+
+#if defined __AVX512F__ && defined __AVX512DQ__
+#include <immintrin.h>
+enum { LANES = 8 };
+#elif defined __AVX2__ && defined __FMA__
+#include <immintrin.h>
+enum { LANES = 4 };
+#else
+enum { LANES = 2 };
+#endif
+
+typedef double vreal __attribute__((vector_size(8 * LANES)));
+typedef int64_t vint __attribute__((vector_size(8 * LANES)));
+typedef double vreal_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+typedef int64_t vint_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+
+static inline vreal v_load(const double *p)
+{
+    return *(const vreal_in_memory *)p;
+}
+
+static inline vint v_load_int(const int64_t *p)
+{
+    return *(const vint_in_memory *)p;
+}
+
+static inline void v_store(double *p, vreal a)
+{
+    *(vreal_in_memory *)p = a;
+}
+
+static inline vreal v_all(double a)
+{
+    return a - (vreal){0};
+}
+
+static inline vreal v_abs(vreal a)
+{
+    return (vreal)((vint)a & INT64_MAX);
+}
+
+static inline vreal v_copysign(vreal a, vreal sign)
+{
+    return (vreal)(((vint)a & INT64_MAX) | ((vint)sign & INT64_MIN));
+}
+
+#if defined __AVX512F__ && defined __AVX512DQ__
+
+typedef __mmask8 vmask;
+
+static inline vmask v_less(vreal a, vreal b)
+{
+    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+}
+
+static inline vmask v_at_most(vreal a, vreal b)
+{
+    return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+}
+
+static inline vmask v_equal(vreal a, vreal b)
+{
+    return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ);
+}
+
+static inline vmask v_odd(vint a)
+{
+    return _mm512_test_epi64_mask((__m512i)a, _mm512_set1_epi64(1));
+}
+
+static inline bool v_any_int(vint a)
+{
+    return _mm512_test_epi64_mask((__m512i)a, (__m512i)a) != 0;
+}
+
+static inline vmask v_not(vmask m)
+{
+    return (vmask)~m;
+}
+
+static inline bool v_any(vmask m)
+{
+    return m != 0;
+}
+
+/* Bit i: lane i. */
+static inline unsigned v_bits(vmask m)
+{
+    return m;
+}
+
+static inline vreal v_select(vmask m, vreal a, vreal b)
+{
+    return _mm512_mask_blend_pd(m, b, a);
+}
+
+static inline vreal v_sqrt(vreal a)
+{
+    return _mm512_sqrt_pd(a);
+}
+
+static inline vreal v_truncate(vreal a)
+{
+    return _mm512_roundscale_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+
+/* a b + c, rounded once. */
+static inline vreal v_fma(vreal a, vreal b, vreal c)
+{
+    return _mm512_fmadd_pd(a, b, c);
+}
+
+#else
+
+typedef vint vmask;
+
+static inline vmask v_less(vreal a, vreal b)
+{
+    return (vmask)(a < b);
+}
+
+static inline vmask v_at_most(vreal a, vreal b)
+{
+    return (vmask)(a <= b);
+}
+
+static inline vmask v_equal(vreal a, vreal b)
+{
+    return (vmask)(a == b);
+}
+
+static inline vmask v_odd(vint a)
+{
+    return (vmask)((a & 1) == 1);
+}
+
+static inline vmask v_not(vmask m)
+{
+    return ~m;
+}
+
+#if defined __AVX2__ && defined __FMA__
+
+static inline bool v_any_int(vint a)
+{
+    return !_mm256_testz_si256((__m256i)a, (__m256i)a);
+}
+
+static inline unsigned v_bits(vmask m)
+{
+    return (unsigned)_mm256_movemask_pd((__m256d)m);
+}
+
+static inline vreal v_select(vmask m, vreal a, vreal b)
+{
+    return _mm256_blendv_pd(b, a, (__m256d)m);
+}
+
+static inline vreal v_sqrt(vreal a)
+{
+    return _mm256_sqrt_pd(a);
+}
+
+static inline vreal v_truncate(vreal a)
+{
+    return _mm256_round_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+
+static inline vreal v_fma(vreal a, vreal b, vreal c)
+{
+    return _mm256_fmadd_pd(a, b, c);
+}
+
+#else
+
+static inline bool v_any_int(vint a)
+{
+    return (a[0] | a[1]) != 0;
+}
+
+static inline unsigned v_bits(vmask m)
+{
+    return (m[0] != 0) | (unsigned)(m[1] != 0) << 1;
+}
+
+static inline vreal v_select(vmask m, vreal a, vreal b)
+{
+    return (vreal)((m & (vint)a) | (~m & (vint)b));
+}
+
+static inline vreal v_sqrt(vreal a)
+{
+    return (vreal){sqrt(a[0]), sqrt(a[1])};
+}
+
+static inline vreal v_truncate(vreal a)
+{
+    return (vreal){trunc(a[0]), trunc(a[1])};
+}
+
+static inline vreal v_fma(vreal a, vreal b, vreal c)
+{
+    return (vreal){fma(a[0], b[0], c[0]), fma(a[1], b[1], c[1])};
+}
+
+#endif
+
+static inline bool v_any(vmask m)
+{
+    return v_bits(m) != 0;
+}
+
+#endif
+
+/* a < b ? a : b, also where one is no number. */
+static inline vreal v_min(vreal a, vreal b)
+{
+    return v_select(v_less(a, b), a, b);
+}
+
+static inline vreal v_max(vreal a, vreal b)
+{
+    return v_select(v_less(b, a), a, b);
+}
+
+static inline vreal v_difference_of_products(vreal a, vreal b, vreal c, vreal d)
+{
+    vreal cd = c * d;
+    return v_fma(a, b, -cd) + v_fma(-c, d, cd);
+}
+
+/* ---- three of them --------------------------------------------------------------------------- */
+
+/* As struct vec3, with the same order of operations in everything. */
+struct vvec3 {
+    vreal x, y, z;
+};
+
+static inline struct vvec3 v3_load(const struct vec3_batch *b, uint32_t i)
+{
+    return (struct vvec3){v_load(b->x + i), v_load(b->y + i), v_load(b->z + i)};
+}
+
+static inline void v3_store(struct vec3_batch *b, uint32_t i, struct vvec3 a)
+{
+    v_store(b->x + i, a.x);
+    v_store(b->y + i, a.y);
+    v_store(b->z + i, a.z);
+}
+
+static inline struct vvec3 v3_all(struct vec3 a)
+{
+    return (struct vvec3){v_all(a.x), v_all(a.y), v_all(a.z)};
+}
+
+static inline struct vvec3 v3_add(struct vvec3 a, struct vvec3 b)
+{
+    return (struct vvec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline struct vvec3 v3_sub(struct vvec3 a, struct vvec3 b)
+{
+    return (struct vvec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline struct vvec3 v3_mul(struct vvec3 a, struct vvec3 b)
+{
+    return (struct vvec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static inline struct vvec3 v3_scale(struct vvec3 a, vreal s)
+{
+    return (struct vvec3){a.x * s, a.y * s, a.z * s};
+}
+
+/* a + s b */
+static inline struct vvec3 v3_mad(struct vvec3 a, vreal s, struct vvec3 b)
+{
+    return (struct vvec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+static inline vreal v3_dot(struct vvec3 a, struct vvec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline struct vvec3 v3_normalize(struct vvec3 a)
+{
+    return v3_scale(a, 1 / v_sqrt(v3_dot(a, a)));
+}
+
+static inline struct vvec3 v3_select(vmask m, struct vvec3 a, struct vvec3 b)
+{
+    return (struct vvec3){v_select(m, a.x, b.x), v_select(m, a.y, b.y), v_select(m, a.z, b.z)};
+}
+
+static inline vreal v3_largest(struct vvec3 a)
+{
+    vreal x = v_abs(a.x), y = v_abs(a.y), z = v_abs(a.z);
+    return v_max(v_max(x, y), z);
+}
+
+#endif

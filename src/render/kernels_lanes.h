@@ -1,0 +1,372 @@
+/* The body of a vector kernel: included once by the file of each instruction set, which sets
+ * RENDER_KERNELS to the name of its table.
+ *
+ * The same operations in the same order as the reference in kernels_plain.c. */
+#include "math/lanes.h"
+#include "render/tracer.h"
+
+static void aim(const struct lens *lens, const double *u, const double *v, uint32_t n,
+                struct vec3_batch *directions)
+{
+    struct vvec3 across = v3_all(lens->across), upwards = v3_all(lens->upwards);
+    for (uint32_t i = 0; i < n; i += LANES) {
+        struct vvec3 d = v3_scale(across, 2 * v_load(u + i) - 1);
+        d = v3_add(v3_mad(d, 2 * v_load(v + i) - 1, upwards), v3_all(lens->ahead));
+        if (lens->mirrored)
+            d.z = -d.z;
+        v3_store(directions, i, v3_normalize(d));
+    }
+}
+
+/* ---- points on primitives -------------------------------------------------------------------- */
+
+static void sphere_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
+{
+    struct vvec3 center = v3_load(&h->at, i), f = v3_sub(v3_load(&h->origin, i), center);
+    struct vvec3 normal = v3_mad(f, v_load(h->t + i), v3_load(&points->incoming, i));
+    normal = v3_normalize(normal);
+    v3_store(&points->normal, i, normal);
+    v3_store(&points->p, i, v3_mad(center, v_load(h->radius + i), normal));
+}
+
+static void cylinder_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
+{
+    struct vvec3 base = v3_load(&h->at, i), axis = v3_load(&h->along, i);
+    vreal zero = v_all(0), radius = v_load(h->radius + i), height = v_load(h->height + i);
+    vreal part = v_load(h->part + i);
+    vmask side = v_equal(part, v_all(CYLINDER_SIDE)), top = v_equal(part, v_all(CYLINDER_TOP));
+    struct vvec3 p = v3_sub(v3_load(&h->origin, i), base);
+    p = v3_mad(p, v_load(h->t + i), v3_load(&points->incoming, i));
+    vreal z = v3_dot(p, axis);
+    struct vvec3 across = v3_mad(p, -z, axis);
+    vreal length = v_sqrt(v3_dot(across, across));
+    struct vvec3 outwards = v3_scale(across, 1 / length);
+    across = v3_select(side | v_less(radius, length), v3_scale(outwards, radius), across);
+    vmask low = v_equal(part, v_all(CYLINDER_BASE)) | v_less(z, zero);
+    z = v_select(low, zero, v_select(top | v_less(height, z), height, z));
+    struct vvec3 cap = v3_select(top, axis, (struct vvec3){-axis.x, -axis.y, -axis.z});
+    v3_store(&points->normal, i, v3_select(side, outwards, cap));
+    v3_store(&points->p, i, v3_add(base, v3_mad(across, z, axis)));
+}
+
+static void triangle_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
+{
+    struct vvec3 normal = v3_load(&h->along, i), corner = v3_load(&h->at, i);
+    struct vvec3 p = v3_load(&h->origin, i);
+    p = v3_mad(p, v_load(h->t + i), v3_load(&points->incoming, i));
+    v3_store(&points->normal, i, normal);
+    v3_store(&points->p, i, v3_mad(p, v3_dot(normal, v3_sub(corner, p)), normal));
+}
+
+/* The last vector of a kind reaches into the next kind's points, which come later. */
+static void hit_points(const struct geometry *g, const struct hit_shapes *shapes,
+                       struct shade_batch *points)
+{
+    (void)g;
+    const uint32_t *first = shapes->first;
+    for (uint32_t i = first[PRIM_SPHERE]; i < first[PRIM_SPHERE + 1]; i += LANES)
+        sphere_points(shapes, i, points);
+    for (uint32_t i = first[PRIM_CYLINDER]; i < first[PRIM_CYLINDER + 1]; i += LANES)
+        cylinder_points(shapes, i, points);
+    for (uint32_t i = first[PRIM_TRIANGLE]; i < first[PRIM_TRIANGLE + 1]; i += LANES)
+        triangle_points(shapes, i, points);
+}
+
+/* Where plain products are not enough, see geometry_weights: one by one. */
+static void weigh_exactly(const struct geometry *g, const struct hit_shapes *h, unsigned lanes,
+                          uint32_t i, struct shade_batch *points)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        uint32_t k = i + (uint32_t)__builtin_ctz(lanes);
+        struct hit hit = {.prim = points->prim[k]};
+        struct ray ray = {.origin = vec3_get(&h->origin, k),
+                          .direction = vec3_get(&points->incoming, k)};
+        geometry_weights(g, &ray, &hit);
+        points->b1[k] = hit.b1;
+        points->b2[k] = hit.b2;
+    }
+}
+
+struct vpoint2 {
+    vreal x, y;
+};
+
+/* The lanes whose ray runs along x most, and along y. */
+struct shear {
+    vmask along_x, along_y;
+    vreal x, y;
+};
+
+static inline struct shear shear_of(struct vvec3 d)
+{
+    vreal x = v_abs(d.x), y = v_abs(d.y), z = v_abs(d.z);
+    vmask along_x = v_less(y, x) & v_less(z, x), along_y = v_less(z, y) & v_not(along_x);
+    vreal by = v_select(along_x, d.x, v_select(along_y, d.y, d.z));
+    return (struct shear){along_x, along_y,
+                          v_select(along_x, d.y, v_select(along_y, d.z, d.x)) / by,
+                          v_select(along_x, d.z, v_select(along_y, d.x, d.y)) / by};
+}
+
+static inline struct vpoint2 sheared(struct vvec3 p, const struct shear *s)
+{
+    vreal along = v_select(s->along_x, p.x, v_select(s->along_y, p.y, p.z));
+    vreal x = v_select(s->along_x, p.y, v_select(s->along_y, p.z, p.x));
+    vreal y = v_select(s->along_x, p.z, v_select(s->along_y, p.x, p.y));
+    return (struct vpoint2){x - s->x * along, y - s->y * along};
+}
+
+static inline vreal largest_of_3(vreal a, vreal b, vreal c)
+{
+    return v_max(v_max(v_abs(a), v_abs(b)), v_abs(c));
+}
+
+static void weights(const struct geometry *g, const struct hit_shapes *h,
+                    struct shade_batch *points)
+{
+    uint32_t end = h->first[PRIM_TRIANGLE + 1];
+    for (uint32_t i = h->first[PRIM_TRIANGLE]; i < end; i += LANES) {
+        struct vvec3 o = v3_load(&h->origin, i);
+        struct shear shear = shear_of(v3_load(&points->incoming, i));
+        struct vpoint2 a = sheared(v3_sub(v3_load(&h->at, i), o), &shear);
+        struct vpoint2 b = sheared(v3_sub(v3_load(&h->second, i), o), &shear);
+        struct vpoint2 c = sheared(v3_sub(v3_load(&h->third, i), o), &shear);
+        vreal u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
+        vreal sum = u + v + w, largest = largest_of_3(a.x, b.x, c.x) * largest_of_3(a.y, b.y, c.y);
+        v_store(points->b1 + i, v / sum);
+        v_store(points->b2 + i, w / sum);
+        unsigned unsure = v_bits(v_not(v_at_most(largest, 16 * v_abs(sum))));
+        if (end - i < LANES)
+            unsure &= (1u << (end - i)) - 1;
+        weigh_exactly(g, h, unsure, i, points);
+    }
+}
+
+/* ---- textures, see texture_fetch ---------------------------------------------------------------
+ */
+
+struct texel_places {
+    vreal at, rest;
+};
+
+/* Lanes that are too large to have a fraction, or no numbers, are added to *strange. */
+static inline struct texel_places places_on(vreal u, double size, vmask *strange)
+{
+    vreal zero = v_all(0), one = v_all(1), t = u * size, at = v_truncate(t), rest = v_abs(t - at);
+    vmask end = v_equal(u, one);
+    vreal within = at - size * v_truncate(at / size);
+    at = v_select(v_less(at, zero) | v_at_most(v_all(size), at), within, at);
+    vmask below = v_less(at, zero);
+    at = v_select(below, at + size, at);
+    rest = v_select(below, 1 - rest, rest);
+    *strange |= v_not(v_less(v_abs(t), v_all(0x1p51)));
+    return (struct texel_places){v_select(end, v_all(size - 1), at), v_select(end, one, rest)};
+}
+
+/* The four texels around each place, channel by channel. */
+struct texel_corners {
+    alignas(64) double at[4][BATCH_ROOM];                       /* numbers in the image */
+    alignas(64) double across[BATCH_ROOM], upwards[BATCH_ROOM]; /* the place between them */
+    struct vec3_batch texel[4];
+};
+
+static void load_texels(const struct image *image, uint32_t n, int corners, struct texel_corners *c)
+{
+    for (int k = 0; k < corners; k++) {
+        for (uint32_t i = 0; i < n && image->data8; i++) {
+            const uint8_t *p = image->data8 + 3 * (size_t)c->at[k][i];
+            vec3_put(&c->texel[k], i, vec3(p[0], p[1], p[2]));
+        }
+        for (uint32_t i = 0; i < n && image->data16; i++) {
+            const uint16_t *p = image->data16 + 3 * (size_t)c->at[k][i];
+            vec3_put(&c->texel[k], i, vec3(p[0], p[1], p[2]));
+        }
+    }
+}
+
+static inline struct vvec3 v3_mix(struct vvec3 a, struct vvec3 b, vreal share_of_b)
+{
+    return v3_mad(v3_scale(a, 1 - share_of_b), share_of_b, b);
+}
+
+/* Returns a bit for each place that is none. */
+static uint64_t place_corners(const struct image *image, const double *u, const double *v,
+                              uint32_t n, struct texel_corners *c)
+{
+    double width = image->width, height = image->height;
+    vreal zero = v_all(0);
+    uint64_t strange = 0;
+    for (uint32_t i = 0; i < n; i += LANES) {
+        vmask none = v_less(zero, zero);
+        struct texel_places x = places_on(v_load(u + i), width, &none);
+        struct texel_places y = places_on(v_load(v + i), height, &none);
+        strange |= (uint64_t)v_bits(none) << i;
+        x.at = v_select(none, zero, x.at);
+        y.at = v_select(none, zero, y.at);
+        vreal right = v_select(v_less(x.at + 1, v_all(width)), x.at + 1, zero);
+        vreal above = v_select(v_less(y.at + 1, v_all(height)), y.at + 1, zero);
+        vreal low = (height - 1 - y.at) * width, high = (height - 1 - above) * width;
+        v_store(c->at[0] + i, low + x.at);
+        v_store(c->at[1] + i, low + right);
+        v_store(c->at[2] + i, high + x.at);
+        v_store(c->at[3] + i, high + right);
+        v_store(c->across + i, x.rest);
+        v_store(c->upwards + i, y.rest);
+    }
+    return n < BATCH ? strange & ((UINT64_C(1) << n) - 1) : strange;
+}
+
+static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
+                   struct vec3_batch *out)
+{
+    const struct image *image = texture->image;
+    double full = image->data8 ? 255 : 65535;
+    struct texel_corners c;
+    uint64_t strange = place_corners(image, u, v, n, &c);
+    load_texels(image, n, texture->linear ? 4 : 1, &c);
+    for (uint32_t i = 0; i < n; i += LANES) {
+        struct vvec3 t = v3_load(&c.texel[0], i);
+        if (texture->linear) {
+            vreal x = v_load(c.across + i);
+            t = v3_mix(v3_mix(t, v3_load(&c.texel[1], i), x),
+                       v3_mix(v3_load(&c.texel[2], i), v3_load(&c.texel[3], i), x),
+                       v_load(c.upwards + i));
+        }
+        v3_store(out, i, (struct vvec3){t.x / full, t.y / full, t.z / full});
+    }
+    for (; strange; strange &= strange - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(strange);
+        vec3_put(out, k, texture_fetch(texture, u[k], v[k]));
+    }
+}
+
+static void bend(const struct vec3_batch *texels, const double *bent, struct shade_batch *points)
+{
+    for (uint32_t i = 0; i < points->n; i += LANES) {
+        struct vvec3 texel = v3_load(texels, i), n = v3_load(&points->normal, i);
+        struct vvec3 b = {2 * (texel.x - 0.5), -2 * (texel.y - 0.5), v_all(1)};
+        b = v3_normalize(b);
+        b = v3_normalize((struct vvec3){n.x + b.x, n.y - b.y, n.z});
+        v3_store(&points->normal, i, v3_select(v_less(v_all(0), v_load(bent + i)), b, n));
+    }
+}
+
+/* ---- classic light --------------------------------------------------------------------------- */
+
+static vreal whole_powers(vreal x, vint n)
+{
+    vreal result = v_select(v_odd(n), x, v_all(1));
+    while (v_any_int(n >>= 1)) {
+        x *= x;
+        result = v_select(v_odd(n), result * x, result);
+    }
+    return result;
+}
+
+/* Where a power is not multiplied out or a metal is textured: one by one. */
+static void uneven_lanes(const struct shade_batch *points, uint32_t i, vreal cosine, vreal mirrored,
+                         struct vvec3 *lit, vreal *highlight)
+{
+    for (uint32_t k = 0; k < LANES && i + k < points->n; k++) {
+        const struct finish *f = points->finish[i + k];
+        if (!f->uneven)
+            continue;
+        struct vec3 spread = finish_diffuse(f, vec3_get(&points->diffuse, i + k), cosine[k]);
+        lit->x[k] = spread.x;
+        lit->y[k] = spread.y;
+        lit->z[k] = spread.z;
+        (*highlight)[k] = finish_highlight(f, mirrored[k]);
+    }
+}
+
+static vmask glowing_lanes(const struct shade_batch *points, uint32_t i)
+{
+    alignas(64) double glows[LANES] = {0};
+    for (uint32_t k = 0; k < LANES && i + k < points->n; k++)
+        glows[k] = points->finish[i + k]->glows;
+    return v_less(v_all(0), v_load(glows));
+}
+
+/* What is reflected of light that comes from to_light. */
+static struct vvec3 direct_light(const struct shade_batch *points, uint32_t i,
+                                 struct vvec3 to_light)
+{
+    vreal cosine = v3_dot(v3_load(&points->normal, i), to_light);
+    vreal mirrored =
+        v3_dot(v3_load(&points->incoming, i), to_light) - 2 * cosine * v_load(points->facing + i);
+    struct vvec3 lit = v3_scale(v3_load(&points->diffuse, i), cosine);
+    vreal highlight = whole_powers(mirrored, v_load_int(points->power + i));
+    if (points->any_uneven)
+        uneven_lanes(points, i, cosine, mirrored, &lit, &highlight);
+    return v3_mad(lit, highlight, v3_load(&points->specular, i));
+}
+
+static void add_light(const struct shade_batch *points, const struct light *light,
+                      const double *shares, struct light_batch *sums)
+{
+    struct vvec3 position = v3_all(light->position), intensity = v3_all(light->intensity);
+    for (uint32_t i = 0; i < points->n; i += LANES) {
+        vreal share = v_load(shares + i);
+        vmask lit = v_not(v_equal(share, v_all(0)));
+        struct vvec3 way = v3_sub(position, v3_load(&points->p, i)), arriving = intensity;
+        vreal square = v3_dot(way, way);
+        if (light->inverse_square)
+            arriving =
+                (struct vvec3){intensity.x / square, intensity.y / square, intensity.z / square};
+        if (points->any_bounces)
+            v3_store(&sums->intensity, i, v3_add(v3_load(&sums->intensity, i), arriving));
+        if (!v_any(lit))
+            continue;
+        struct vvec3 direct = direct_light(points, i, v3_scale(way, 1 / v_sqrt(square)));
+        direct = v3_scale(direct, share);
+        if (points->any_glowing)
+            direct = v3_select(glowing_lanes(points, i), v3_load(&points->diffuse, i), direct);
+        struct vvec3 sum = v3_load(&sums->direct, i);
+        v3_store(&sums->direct, i, v3_select(lit, v3_add(sum, v3_mul(arriving, direct)), sum));
+    }
+}
+
+/* ---- the rest -------------------------------------------------------------------------------- */
+
+static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
+{
+    for (uint32_t i = 0; i < points->n; i += LANES) {
+        struct vvec3 d = v3_load(&points->incoming, i), normal = v3_load(&points->normal, i);
+        d = v3_mad(d, -2 * v_load(points->facing + i), normal);
+        v3_store(directions, i, v3_normalize(d));
+    }
+}
+
+static double least_lane(vreal a)
+{
+    double least = a[0];
+    for (int k = 1; k < LANES; k++)
+        least = a[k] < least ? a[k] : least;
+    return least;
+}
+
+/* The last vector ends at the last element, over what another has seen. */
+static void bounds_along(const double *x, uint32_t n, double *least, double *most)
+{
+    vreal lo = v_load(x), hi = lo;
+    for (uint32_t i = LANES; i < n; i += LANES) {
+        vreal next = v_load(x + (i + LANES <= n ? i : n - LANES));
+        lo = v_min(next, lo);
+        hi = v_max(next, hi);
+    }
+    *least = least_lane(lo);
+    *most = -least_lane(-hi);
+}
+
+static struct box bounds(const struct vec3_batch *points, uint32_t n)
+{
+    struct box b;
+    if (n < LANES)
+        return render_plain.bounds(points, n);
+    bounds_along(points->x, n, &b.lo.x, &b.hi.x);
+    bounds_along(points->y, n, &b.lo.y, &b.hi.y);
+    bounds_along(points->z, n, &b.lo.z, &b.hi.z);
+    return b;
+}
+
+const struct render_kernels RENDER_KERNELS = {aim,  hit_points, weights, texels,
+                                              bend, add_light,  reflect, bounds};

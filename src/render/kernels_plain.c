@@ -1,0 +1,121 @@
+/* The reference of the kernels: one ray, one point after another. */
+#include "config.h"
+
+#include "render/tracer.h"
+
+static void aim(const struct lens *lens, const double *u, const double *v, uint32_t n,
+                struct vec3_batch *directions)
+{
+    for (uint32_t i = 0; i < n; i++)
+        vec3_put(directions, i, lens_direction(lens, u[i], v[i]));
+}
+
+static struct ray ray_to(const struct hit_shapes *shapes, const struct shade_batch *points,
+                         uint32_t i)
+{
+    return (struct ray){.origin = vec3_get(&shapes->origin, i),
+                        .direction = vec3_get(&points->incoming, i)};
+}
+
+static void hit_points(const struct geometry *g, const struct hit_shapes *shapes,
+                       struct shade_batch *points)
+{
+    for (uint32_t i = 0; i < points->n; i++) {
+        struct ray ray = ray_to(shapes, points, i);
+        struct hit hit = {
+            .t = shapes->t[i], .prim = points->prim[i], .part = (uint32_t)shapes->part[i]};
+        struct vec3 normal;
+        vec3_put(&points->p, i, geometry_hit_point(g, &ray, &hit, &normal));
+        vec3_put(&points->normal, i, normal);
+    }
+}
+
+static void weights(const struct geometry *g, const struct hit_shapes *shapes,
+                    struct shade_batch *points)
+{
+    for (uint32_t i = shapes->first[PRIM_TRIANGLE]; i < shapes->first[PRIM_TRIANGLE + 1]; i++) {
+        struct ray ray = ray_to(shapes, points, i);
+        struct hit hit = {.prim = points->prim[i]};
+        geometry_weights(g, &ray, &hit);
+        points->b1[i] = hit.b1;
+        points->b2[i] = hit.b2;
+    }
+}
+
+static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
+                   struct vec3_batch *texels)
+{
+    for (uint32_t i = 0; i < n; i++)
+        vec3_put(texels, i, texture_fetch(texture, u[i], v[i]));
+}
+
+static void bend(const struct vec3_batch *texels, const double *bent, struct shade_batch *points)
+{
+    for (uint32_t i = 0; i < points->n; i++) {
+        struct vec3 texel = vec3_get(texels, i), n = vec3_get(&points->normal, i);
+        struct vec3 b = vec3_normalize(vec3(2 * (texel.x - 0.5), -2 * (texel.y - 0.5), 1));
+        if (bent[i] != 0)
+            vec3_put(&points->normal, i, vec3_normalize(vec3(n.x + b.x, n.y - b.y, n.z)));
+    }
+}
+
+/* Intensity of the light at the point. */
+static struct vec3 intensity_at(const struct light *l, struct vec3 p)
+{
+    if (!l->inverse_square)
+        return l->intensity;
+    struct vec3 d = vec3_sub(l->position, p);
+    double square = vec3_dot(d, d);
+    return vec3(l->intensity.x / square, l->intensity.y / square, l->intensity.z / square);
+}
+
+/* Classic: neither cosine is clamped. */
+static struct vec3 direct_light(const struct shade_point *s, struct vec3 to_light)
+{
+    double cosine = vec3_dot(s->normal, to_light);
+    double mirrored = vec3_dot(s->incoming, to_light) - 2 * cosine * s->facing;
+    struct vec3 lit = finish_diffuse(s->finish, s->diffuse, cosine);
+    return vec3_mad(lit, finish_highlight(s->finish, mirrored), s->finish->specular);
+}
+
+/* share 0 leaves out direct light that may be no number. */
+static void add_light(const struct shade_batch *points, const struct light *light,
+                      const double *shares, struct light_batch *sums)
+{
+    for (uint32_t i = 0; i < points->n; i++) {
+        struct shade_point s = shade_point_get(points, i);
+        struct vec3 intensity = intensity_at(light, s.p), direct = s.diffuse;
+        vec3_put(&sums->intensity, i, vec3_add(vec3_get(&sums->intensity, i), intensity));
+        if (shares[i] == 0)
+            continue;
+        if (!s.finish->glows) {
+            struct vec3 to_light = vec3_normalize(vec3_sub(light->position, s.p));
+            direct = vec3_scale(direct_light(&s, to_light), shares[i]);
+        }
+        vec3_put(&sums->direct, i,
+                 vec3_add(vec3_get(&sums->direct, i), vec3_mul(intensity, direct)));
+    }
+}
+
+static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
+{
+    for (uint32_t i = 0; i < points->n; i++) {
+        struct shade_point s = shade_point_get(points, i);
+        vec3_put(directions, i, vec3_normalize(vec3_mad(s.incoming, -2 * s.facing, s.normal)));
+    }
+}
+
+/* A point with a part that is no number leaves that part out. */
+static struct box bounds(const struct vec3_batch *points, uint32_t n)
+{
+    struct box b = box_empty();
+    for (uint32_t i = 0; i < n; i++) {
+        struct vec3 p = vec3_get(points, i);
+        b.lo = vec3_min(p, b.lo);
+        b.hi = vec3_max(p, b.hi);
+    }
+    return b;
+}
+
+const struct render_kernels render_plain = {aim,  hit_points, weights, texels,
+                                            bend, add_light,  reflect, bounds};

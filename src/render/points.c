@@ -1,0 +1,255 @@
+#include "config.h"
+
+#include "render/tracer.h"
+
+/* ---- what the rays hit ----------------------------------------------------------------------- */
+
+/* The hit of the ray with the surface it crossed, alone. */
+static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_t crossed,
+                                 struct hit *hit)
+{
+    const struct surface *surface = &t->scene->surfaces.at[crossed];
+    if (surface->prim_count == 1) {
+        struct ray_frame frame = ray_frame_of(&ray);
+        *hit = hit_none(ray.t_max);
+        return ray_has_direction(&ray) &&
+               geometry_intersect(&t->scene->geometry, surface->first_prim, &ray, &frame, hit);
+    }
+    ray.surface = crossed;
+    return accel_closest(&t->accel, &ray, hit);
+}
+
+/* What the rays can hit at all, nearest first. */
+static void find_targets(const struct tracer *t, const struct ray_batch *rays,
+                         struct target_list *list)
+{
+    list->usable = false;
+    if (!t->skips || rays->n <= 1)
+        return;
+    struct box origins = t->kernels->bounds(&rays->origin, rays->common_origin ? 1 : rays->n);
+    struct box directions = t->kernels->bounds(&rays->direction, rays->n);
+    struct shaft shaft = shaft_of_rays(&t->accel, origins, directions);
+    shaft_list(&t->accel, &shaft, list);
+    if (list->usable)
+        shaft_sort(&t->accel, &shaft, list);
+}
+
+/* A refracted ray meets the far side of what it crossed before anything else. */
+static void meet_crossed_surfaces(struct worker *w, const struct ray_batch *rays,
+                                  const struct path *paths, bool *inside)
+{
+    for (uint32_t i = 0; i < rays->n; i++) {
+        struct hit hit;
+        inside[i] = paths && paths[i].crossed != SURFACE_NONE &&
+                    hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit);
+        if (inside[i])
+            hit_put(&w->hits, i, &hit);
+    }
+}
+
+/* ---- their points and normals ---------------------------------------------------------------- */
+
+static bool interpolates(const struct surface *surface)
+{
+    return surface->normals || surface->uvs;
+}
+
+static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, uint32_t k,
+                         struct prim prim)
+{
+    const struct geometry *g = &scene->geometry;
+    if (prim.kind == PRIM_SPHERE) {
+        const struct sphere *s = &g->spheres.at[prim.index];
+        vec3_put(&shapes->at, k, s->center);
+        shapes->radius[k] = s->radius;
+    } else if (prim.kind == PRIM_CYLINDER) {
+        const struct cylinder *c = &g->cylinders.at[prim.index];
+        vec3_put(&shapes->at, k, c->base);
+        vec3_put(&shapes->along, k, c->axis);
+        shapes->radius[k] = c->radius;
+        shapes->height[k] = c->height;
+    } else {
+        const struct triangle *t = &g->triangles.at[prim.index];
+        vec3_put(&shapes->at, k, g->vertices.at[t->vertex[0]]);
+        vec3_put(&shapes->along, k, t->normal);
+        if (!interpolates(&scene->surfaces.at[prim.surface]))
+            return;
+        vec3_put(&shapes->second, k, g->vertices.at[t->vertex[1]]);
+        vec3_put(&shapes->third, k, g->vertices.at[t->vertex[2]]);
+        shapes->weighted = true;
+    }
+}
+
+static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_t i,
+                         struct prim prim)
+{
+    struct shade_batch *points = &w->points;
+    struct hit_shapes *shapes = &w->shapes;
+    uint32_t k = points->n++;
+    points->ray[k] = i;
+    points->prim[k] = (uint32_t)w->hits.prim[i];
+    points->surface[k] = prim.surface;
+    points->t[k] = w->hits.t[i];
+    vec3_put(&points->incoming, k, vec3_get(&rays->direction, i));
+    vec3_put(&shapes->origin, k, vec3_get(&rays->origin, i));
+    shapes->t[k] = w->hits.t[i];
+    shapes->part[k] = w->hits.part[i];
+    gather_shape(shapes, w->tracer->scene, k, prim);
+}
+
+/* Puts the hits in the order of their primitives' kinds. */
+static void gather_points(struct worker *w, const struct ray_batch *rays)
+{
+    const struct prim *prims = w->tracer->scene->geometry.prims.at;
+    uint32_t of_kind[PRIM_KINDS][BATCH], n[PRIM_KINDS] = {0};
+    w->points.n = 0;
+    w->shapes.weighted = false;
+    for (uint32_t i = 0; i < rays->n; i++) {
+        if (w->hits.prim[i] == PRIM_NONE)
+            continue;
+        unsigned kind = prims[(uint32_t)w->hits.prim[i]].kind;
+        of_kind[kind][n[kind]++] = i;
+    }
+    for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
+        w->shapes.first[kind] = w->points.n;
+        for (uint32_t k = 0; k < n[kind]; k++) {
+            uint32_t i = of_kind[kind][k];
+            gather_point(w, rays, i, prims[(uint32_t)w->hits.prim[i]]);
+        }
+    }
+    w->shapes.first[PRIM_KINDS] = w->points.n;
+}
+
+/* ---- their surfaces -------------------------------------------------------------------------- */
+
+static void add_textured(struct textured *t, uint32_t point, uint32_t texture,
+                         const struct uv_map *map, struct vec2 uv)
+{
+    t->point[t->n] = point;
+    t->texture[t->n] = texture;
+    t->u[t->n] = uv.x * map->scale.x + map->offset.x;
+    t->v[t->n++] = uv.y * map->scale.y + map->offset.y;
+}
+
+static void note_textures(struct worker *w, uint32_t k, const struct surface *surface,
+                          const struct hit *hit)
+{
+    struct shade_batch *points = &w->points;
+    const struct material *m = points->finish[k]->material;
+    struct vec2 uv = surface_uv(w->tracer->scene, surface, hit, vec3_get(&points->p, k));
+    if (surface->normal_map != TEXTURE_NONE) {
+        struct textured *bumps = &w->bumps;
+        add_textured(bumps, k, surface->normal_map, &surface->uv, uv);
+        uv = (struct vec2){bumps->u[bumps->n - 1], bumps->v[bumps->n - 1]};
+    }
+    if (m->texture != TEXTURE_NONE)
+        add_textured(&w->paints, k, m->texture, &m->uv, uv);
+}
+
+/* Normals that are not the primitive's own, and what textures say. */
+static void apply_surface(struct worker *w, uint32_t k, const struct surface *surface)
+{
+    const struct scene *scene = w->tracer->scene;
+    struct shade_batch *points = &w->points;
+    struct hit hit = {
+        .t = points->t[k], .prim = points->prim[k], .b1 = points->b1[k], .b2 = points->b2[k]};
+    if (surface->normals || surface->flip)
+        vec3_put(&points->normal, k,
+                 surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
+    if (surface->needs_uv)
+        note_textures(w, k, surface, &hit);
+}
+
+/* The texels of one texture's points; out by point.  Takes these out of `todo`, a bit for each. */
+static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, uint64_t todo,
+                             struct vec3_batch *out)
+{
+    const struct tracer *tracer = w->tracer;
+    uint32_t texture = t->texture[__builtin_ctzll(todo)], which[BATCH], n = 0;
+    double u[BATCH_ROOM] = {0}, v[BATCH_ROOM] = {0};
+    struct vec3_batch texels;
+    for (uint32_t i = 0; i < t->n; i++) {
+        if (t->texture[i] != texture)
+            continue;
+        todo &= ~(UINT64_C(1) << i);
+        u[n] = t->u[i];
+        v[n] = t->v[i];
+        which[n++] = t->point[i];
+    }
+    tracer->kernels->texels(&tracer->scene->textures.at[texture], u, v, n, &texels);
+    for (uint32_t i = 0; i < n; i++)
+        vec3_put(out, which[i], vec3_get(&texels, i));
+    return todo;
+}
+
+static void fetch_texels(const struct worker *w, const struct textured *t, struct vec3_batch *out)
+{
+    uint64_t todo = UINT64_MAX >> (BATCH - t->n);
+    while (todo)
+        todo = fetch_of_one(w, t, todo, out);
+}
+
+static void bend_normals(struct worker *w)
+{
+    struct vec3_batch texels;
+    double bent[BATCH_ROOM] = {0};
+    fetch_texels(w, &w->bumps, &texels);
+    for (uint32_t i = 0; i < w->bumps.n; i++)
+        bent[w->bumps.point[i]] = 1;
+    w->tracer->kernels->bend(&texels, bent, &w->points);
+}
+
+static void paint(struct worker *w)
+{
+    struct vec3_batch texels;
+    fetch_texels(w, &w->paints, &texels);
+    for (uint32_t i = 0; i < w->paints.n; i++) {
+        uint32_t k = w->paints.point[i];
+        vec3_put(&w->points.diffuse, k,
+                 vec3_mul(vec3_get(&texels, k), vec3_get(&w->points.diffuse, k)));
+    }
+}
+
+static void finish_points(struct worker *w)
+{
+    const struct tracer *t = w->tracer;
+    struct shade_batch *points = &w->points;
+    w->bumps.n = w->paints.n = 0;
+    points->any_uneven = points->any_glowing = points->any_bounces = false;
+    for (uint32_t k = 0; k < points->n; k++) {
+        const struct surface *surface = &t->scene->surfaces.at[points->surface[k]];
+        const struct finish *finish = &t->finishes[surface->material];
+        points->finish[k] = finish;
+        vec3_put(&points->diffuse, k, finish->material->diffuse);
+        vec3_put(&points->specular, k, finish->specular);
+        points->power[k] = finish->power;
+        points->any_uneven |= finish->uneven;
+        points->any_glowing |= finish->glows;
+        points->any_bounces |= finish->bounces;
+        if (surface->normals || surface->flip || surface->needs_uv)
+            apply_surface(w, k, surface);
+    }
+    if (w->bumps.n > 0)
+        bend_normals(w);
+    if (w->paints.n > 0)
+        paint(w);
+    for (uint32_t k = 0; k < points->n; k++)
+        points->facing[k] = vec3_dot(vec3_get(&points->normal, k), vec3_get(&points->incoming, k));
+}
+
+void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths)
+{
+    const struct tracer *t = w->tracer;
+    struct target_list list;
+    bool inside[BATCH];
+    find_targets(t, rays, &list);
+    bundle_closest(&t->accel, t->bundles, rays, &list, &w->hits);
+    meet_crossed_surfaces(w, rays, paths, inside);
+    gather_points(w, rays);
+    for (uint32_t k = 0; k < w->points.n; k++)
+        w->points.inside[k] = inside[w->points.ray[k]];
+    t->kernels->hit_points(&t->scene->geometry, &w->shapes, &w->points);
+    if (w->shapes.weighted)
+        t->kernels->weights(&t->scene->geometry, &w->shapes, &w->points);
+    finish_points(w);
+}

@@ -1,0 +1,217 @@
+#include "config.h"
+
+#include "image/codec.h"
+#include "math/rng.h"
+#include "render/tracer.h"
+#include "unit.h"
+
+#include <string.h>
+
+/* Numbers from 0 to 1 by position in the run. */
+static double random_at(uint64_t run, uint64_t i, uint64_t what)
+{
+    return rng_uniform(7, run, i, what);
+}
+
+static struct vec3 random_vec3(uint64_t run, uint64_t i, uint64_t what)
+{
+    return vec3(2 * random_at(run, i, what) - 1, 2 * random_at(run, i, what + 1) - 1,
+                2 * random_at(run, i, what + 2) - 1);
+}
+
+static void check_same_numbers(const double *a, const double *b, uint32_t n)
+{
+    ck_assert_int_eq(memcmp(a, b, n * sizeof *a), 0);
+}
+
+static void check_same_vectors(const struct vec3_batch *a, const struct vec3_batch *b, uint32_t n)
+{
+    check_same_numbers(a->x, b->x, n);
+    check_same_numbers(a->y, b->y, n);
+    check_same_numbers(a->z, b->z, n);
+}
+
+/* ---- rays against lists ------------------------------------------------------------------------
+ */
+
+/* Spheres, cylinders, two triangles of one plane that share an edge, and a triangle without area.
+ */
+static void make_geometry(struct geometry *g, uint64_t run)
+{
+    geometry_add_sphere(g, 0, random_vec3(run, 0, 0), 0.5);
+    geometry_add_sphere(g, 1, vec3(0, 0, 0), 0.25);
+    geometry_add_sphere(g, 2, vec3(0, 0, 0), 0.25); /* ties go to the one before */
+    geometry_add_cylinder(g, 3, vec3(0, -1, 0), vec3(0, 1, 0), 0.3);
+    geometry_add_cylinder(g, 4, random_vec3(run, 1, 0), random_vec3(run, 2, 0), 0.2);
+    uint32_t v[4];
+    for (int i = 0; i < 4; i++)
+        v[i] = geometry_add_vertex(g, vec3(i & 1 ? 1 : -1, -0.5, i & 2 ? 1 : -1));
+    geometry_add_triangle(g, 5, v[0], v[1], v[3]);
+    geometry_add_triangle(g, 5, v[3], v[2], v[0]);
+    geometry_add_triangle(g, 6, v[0], v[1], v[1]);
+    for (uint64_t i = 0; i < 3; i++)
+        v[i] = geometry_add_vertex(g, random_vec3(run, 3 + i, 0));
+    geometry_add_triangle(g, 7, v[0], v[1], v[2]);
+}
+
+/* Directions of every kind: anywhere, along axes, along diagonals, in the triangles' plane,
+ * nowhere, and no numbers. */
+static struct vec3 direction_at(uint64_t run, uint32_t i)
+{
+    struct vec3 d = random_vec3(run, i, 20);
+    switch (i % 8) {
+    case 1:
+        return vec3(0, -1, 0);
+    case 2:
+        return vec3(1, 0, 0);
+    case 3:
+        return vec3(1, 0, 1);
+    case 4:
+        return vec3(d.x, 0, d.z);
+    case 5:
+        return vec3(-0.0, d.y, 1e-300);
+    case 6:
+        return i == 6 ? vec3_all(0) : i == 14 ? vec3_all(NAN) : d;
+    default:
+        return d;
+    }
+}
+
+/* run & 1: rays spawned on primitives; run & 2: all from one point; run & 4: not whole vectors. */
+static void make_rays(struct ray_batch *rays, uint64_t run)
+{
+    memset(rays, 0, sizeof *rays);
+    rays->n = run & 4 ? 61 : BATCH;
+    rays->spawned = run & 1;
+    rays->common_origin = run & 2;
+    for (uint32_t i = 0; i < rays->n; i++) {
+        struct vec3 o = i % 3 == 0 ? vec3(0, 2, 0) : random_vec3(run, i, 30);
+        if (rays->spawned && i % 3 == 1)
+            o.y = -0.5;
+        if (rays->spawned && i % 3 == 2)
+            o = vec3_scale(vec3_normalize(o), 0.25);
+        vec3_put(&rays->origin, i, rays->common_origin ? vec3(0.1, -0.5, 0.2) : o);
+        vec3_put(&rays->direction, i, direction_at(run, i));
+        rays->t_max[i] = i % 5 == 0 ? 0.75 : RAY_UNBOUNDED;
+        rays->from[i] = rays->spawned && i % 3 == 1 ? 5 : PRIM_NONE;
+    }
+}
+
+START_TEST(bundles_meet_what_single_rays_meet)
+{
+    struct geometry g = {0};
+    struct ray_batch rays;
+    struct hit_batch expected, hits;
+    struct target_list list = {.usable = true};
+    uint64_t run = (uint64_t)_i;
+    make_geometry(&g, run);
+    make_rays(&rays, run);
+    list.n = (uint32_t)g.prims.n;
+    for (uint32_t i = 0; i < list.n; i++)
+        list.at[i] = target_of(&g, i);
+    bundle_plain.closest(&g, &rays, &list, &expected);
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        const struct bundle_kernels *kernels = bundle_kernels_of((enum isa)isa);
+        kernels->closest(&g, &rays, &list, &hits);
+        for (uint32_t i = 0; i < rays.n; i++) {
+            ck_assert(hits.prim[i] == expected.prim[i]);
+            if (hits.prim[i] == PRIM_NONE)
+                continue;
+            ck_assert(hits.t[i] == expected.t[i]);
+            ck_assert(hits.part[i] == expected.part[i]);
+        }
+        kernels->any(&g, &rays, &list, &hits);
+        for (uint32_t i = 0; i < rays.n; i++)
+            ck_assert((hits.prim[i] == PRIM_NONE) == (expected.prim[i] == PRIM_NONE));
+    }
+    geometry_free(&g);
+}
+END_TEST
+
+/* ---- textures ----------------------------------------------------------------------------------
+ */
+
+static double coordinate_at(uint64_t run, uint32_t i, uint64_t what)
+{
+    static const double strange[] = {0,    1,        -1,        0.5, -0.0,           1e18, -1e18,
+                                     -0.2, INFINITY, -INFINITY, NAN, 2.999999999999, -7,   0x1p50};
+    enum { STRANGE = sizeof strange / sizeof *strange };
+    double x = random_at(run, i, what);
+    return i % 3 == 0 ? strange[(size_t)(x * STRANGE)] : 8 * (x - 0.5);
+}
+
+/* Bit 0: 16 bits a channel; bit 1: nearest; bit 2: not whole vectors. */
+START_TEST(texels_are_those_of_single_places)
+{
+    uint64_t run = (uint64_t)_i;
+    struct image *image = image_new(7, 5, run & 1 ? 16 : 8);
+    for (uint32_t i = 0; i < 3 * 7 * 5; i++) {
+        if (image->data8)
+            image->data8[i] = (uint8_t)(37 * i);
+        else
+            image->data16[i] = (uint16_t)(9973 * i);
+    }
+    struct texture texture = {image, !(run & 2)};
+    double u[BATCH_ROOM] = {0}, v[BATCH_ROOM] = {0};
+    uint32_t n = run & 4 ? 13 : BATCH;
+    struct vec3_batch expected, texels;
+    for (uint32_t i = 0; i < n; i++) {
+        u[i] = coordinate_at(run, i, 0);
+        v[i] = coordinate_at(run, i, 1);
+    }
+    render_plain.texels(&texture, u, v, n, &expected);
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        render_kernels_of((enum isa)isa)->texels(&texture, u, v, n, &texels);
+        check_same_vectors(&texels, &expected, n);
+    }
+    image_free(image);
+}
+END_TEST
+
+/* ---- the rest ----------------------------------------------------------------------------------
+ */
+
+START_TEST(bounds_hold_all_points)
+{
+    struct vec3_batch points;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++)
+        vec3_put(&points, i, random_vec3(1, i, 0));
+    for (uint32_t n = 1; n <= BATCH; n++) {
+        struct box expected = render_plain.bounds(&points, n);
+        for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+            if (!isa_available((enum isa)isa))
+                continue;
+            struct box b = render_kernels_of((enum isa)isa)->bounds(&points, n);
+            ck_assert_int_eq(memcmp(&b, &expected, sizeof b), 0);
+        }
+    }
+}
+END_TEST
+
+START_TEST(instruction_sets_have_names)
+{
+    for (int i = 0; i < ISA_COUNT; i++) {
+        enum isa isa;
+        ck_assert(isa_of_name(str_of(isa_name((enum isa)i)), &isa) && isa == (enum isa)i);
+    }
+    enum isa isa;
+    ck_assert(!isa_of_name(str_of("mmx"), &isa));
+    ck_assert(isa_available(ISA_PLAIN) && isa_available(ISA_GENERIC) && isa_available(isa_best()));
+}
+END_TEST
+
+Suite *kernels_suite(void)
+{
+    Suite *s = suite_create("kernels");
+    TCase *c = tcase_create("kernels");
+    tcase_add_loop_test(c, bundles_meet_what_single_rays_meet, 0, 64);
+    tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 8);
+    tcase_add_test(c, bounds_hold_all_points);
+    tcase_add_test(c, instruction_sets_have_names);
+    suite_add_tcase(s, c);
+    return s;
+}
