@@ -118,9 +118,8 @@ struct ast_node {
     bool xml;         /* AST_BLOCK, AST_PROPERTY: an XML element */
 };
 
-/* Comments and blank lines, in file order; a printer finds by their spans what they stand before,
- * in or after. */
-enum trivia_kind { TRIVIA_LINE_COMMENT, TRIVIA_BLOCK_COMMENT, TRIVIA_BLANK_LINE, TRIVIA_PI };
+/* Comments, in file order; a printer finds by their spans what they stand before, in or after. */
+enum trivia_kind { TRIVIA_LINE_COMMENT, TRIVIA_BLOCK_COMMENT, TRIVIA_PI };
 
 struct trivia {
     struct span span;

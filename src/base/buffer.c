@@ -33,6 +33,14 @@ void buffer_puts(struct buffer *b, const char *z)
     buffer_add(b, z, strlen(z));
 }
 
+void buffer_fill(struct buffer *b, char c, size_t n)
+{
+    vec_reserve(b, n);
+    if (n)
+        memset(b->at + b->n, c, n);
+    b->n += n;
+}
+
 void buffer_printf(struct buffer *b, const char *format, ...)
 {
     va_list args, again;

@@ -16,6 +16,8 @@ void buffer_free(struct buffer *b);
 void buffer_add(struct buffer *b, const char *p, size_t n);
 void buffer_str(struct buffer *b, struct str s);
 void buffer_puts(struct buffer *b, const char *z);
+/* The same byte n times. */
+void buffer_fill(struct buffer *b, char c, size_t n);
 void buffer_printf(struct buffer *b, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The shortest decimal spelling that reads back as x. */

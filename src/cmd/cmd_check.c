@@ -26,16 +26,10 @@ static int check_scene(const char *path, const struct options *o)
     return status;
 }
 
-/* Wrong input tells more than a missing file. */
-static int worse(int a, int b)
-{
-    return a == DIAG_EXIT_INPUT || b == DIAG_EXIT_INPUT ? DIAG_EXIT_INPUT : a > b ? a : b;
-}
-
 int command_check(const struct options *o)
 {
     int status = o->scenes.n ? 0 : usage_error("check: no scene given");
     for (size_t i = 0; i < o->scenes.n; i++)
-        status = worse(status, check_scene(o->scenes.at[i], o));
+        status = status_worse(status, check_scene(o->scenes.at[i], o));
     return status;
 }

@@ -104,16 +104,19 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
     free(defines);
 }
 
+bool frontend_parse(struct frontend *f, const char *path)
+{
+    frontend_init(f);
+    const struct source *s = read_scene(f, path);
+    return s && syntax_parse(s, &f->ast, &f->diag);
+}
+
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)
 {
     double start = thread_seconds();
-    frontend_init(f);
-    const struct source *s = read_scene(f, path);
-    if (s) {
-        bool parsed = syntax_parse(s, &f->ast, &f->diag);
-        if (may_evaluate(f, parsed))
-            evaluate(f, o, parsed);
-    }
+    bool parsed = frontend_parse(f, path);
+    if (may_evaluate(f, parsed))
+        evaluate(f, o, parsed);
     f->seconds = thread_seconds() - start;
     return f->diag.errors == 0;
 }
@@ -127,6 +130,11 @@ void frontend_free(struct frontend *f)
     vec_free(&f->defines);
     diag_free(&f->diag);
     srcmap_free(&f->sources);
+}
+
+int status_worse(int a, int b)
+{
+    return a == DIAG_EXIT_INPUT || b == DIAG_EXIT_INPUT ? DIAG_EXIT_INPUT : a > b ? a : b;
 }
 
 int frontend_report(struct frontend *f, const struct options *o, enum diag_level least)

@@ -21,6 +21,9 @@ void frontend_init(struct frontend *f);
 /* A file that is no scene as a source, byte by byte; NULL after reporting. */
 const struct source *frontend_read(struct frontend *f, const char *path);
 
+/* Initialises f and reads the scene's text into f->ast; true when it has no syntax errors. */
+bool frontend_parse(struct frontend *f, const char *path);
+
 /* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag; free with
  * frontend_free in any case. */
 bool frontend_load(struct frontend *f, const char *path, const struct options *options);
@@ -28,5 +31,8 @@ void frontend_free(struct frontend *f);
 
 /* Prints what was found as the options say; returns the exit status it asks for. */
 int frontend_report(struct frontend *f, const struct options *options, enum diag_level least);
+
+/* The exit status of two parts of a run: wrong input tells more than a missing file. */
+int status_worse(int a, int b);
 
 #endif

@@ -28,6 +28,8 @@ static const struct command {
     {"render", FOR_RENDER, command_render, "render SCENE [options]", "render a scene to a picture"},
     {"check", FOR_CHECK, command_check, "check SCENE... [options]",
      "parse and validate scenes; opens no texture or mesh"},
+    {"fmt", FOR_FMT, command_fmt, "fmt SCENE... [options]",
+     "print scenes in canonical layout, or bring them into it"},
     {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
      "make a UV list of a VRML 2.0 file's texture coordinates"},
     {"doc", FOR_DOC, command_doc, "doc [KIND[.PROPERTY]]",

@@ -237,6 +237,12 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return take_stats(argument, out);
     case OPT_FORMAT:
         return take_format(text, out);
+    case OPT_IN_PLACE:
+        return out->in_place = true;
+    case OPT_CHECK:
+        return out->check = true;
+    case OPT_DIFF:
+        return out->difference = true;
     case OPT_JITTER:
         return out->jitter = true;
     case OPT_NO_SKIP:

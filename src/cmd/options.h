@@ -10,10 +10,17 @@
 #include <stdint.h>
 
 /* The commands, as bits of the options they take. */
-enum { FOR_RENDER = 1, FOR_CHECK = 2, FOR_UV = 4, FOR_DOC = 8, FOR_ALL = 15 };
+enum {
+    FOR_RENDER = 1,
+    FOR_CHECK = 2,
+    FOR_UV = 4,
+    FOR_DOC = 8,
+    FOR_FMT = 16,
+    FOR_ALL = 31
+};
 
 /* Those that read a scene, and those that report on what they read. */
-enum { FOR_SCENES = FOR_RENDER | FOR_CHECK, FOR_INPUT = FOR_SCENES | FOR_UV };
+enum { FOR_SCENES = FOR_RENDER | FOR_CHECK, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
@@ -31,6 +38,7 @@ struct options {
     enum isa isa;
     enum stats_format stats;
     enum diag_format format;
+    bool in_place, check, difference;
     bool jitter, brute_force, no_skip, quiet, verbose;
     bool manual;
 };

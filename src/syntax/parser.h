@@ -52,8 +52,6 @@ struct span parser_token(struct parser *p, size_t length);
 /* Gives back the last n bytes. */
 void parser_untake(struct parser *p, size_t n);
 void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span);
-/* White space: keeps a blank line as trivia. */
-void parser_blank(struct parser *p, struct span span, struct str text);
 
 /* The place of a text without the blanks around it, which lies at `span`. */
 struct span span_of_trimmed(struct span span, struct str text);

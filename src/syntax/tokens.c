@@ -22,15 +22,6 @@ void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span)
     vec_push(&p->ast->trivia, (struct trivia){span, kind});
 }
 
-void parser_blank(struct parser *p, struct span span, struct str text)
-{
-    size_t newlines = 0;
-    for (size_t i = 0; i < text.n; i++)
-        newlines += text.at[i] == '\n';
-    if (newlines > 1)
-        parser_trivia(p, TRIVIA_BLANK_LINE, span);
-}
-
 void parser_stop(struct parser *p, enum diag_code code, struct span span, const char *message)
 {
     if (!p->stopped)

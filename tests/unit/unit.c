@@ -20,6 +20,7 @@ int main(void)
     srunner_add_suite(runner, bvh_suite());
     srunner_add_suite(runner, geometry_suite());
     srunner_add_suite(runner, kernels_suite());
+    srunner_add_suite(runner, print_suite());
     srunner_add_suite(runner, render_suite());
     srunner_add_suite(runner, texture_suite());
     srunner_add_suite(runner, transform_suite());

@@ -14,6 +14,7 @@ Suite *image_suite(void);
 Suite *kernels_suite(void);
 Suite *lower_suite(void);
 Suite *mesh_suite(void);
+Suite *print_suite(void);
 Suite *render_suite(void);
 Suite *schema_suite(void);
 Suite *syntax_suite(void);
