@@ -35,11 +35,15 @@ void bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
                 const struct ray_batch *rays, const struct target_list *list, bool *blocked)
 {
     struct hit_batch hits;
-    if (list->usable)
+    if (list->usable) {
         kernels->any(a->geometry, rays, list, &hits);
+        for (uint32_t i = 0; i < rays->n; i++)
+            blocked[i] = hits.prim[i] != PRIM_NONE;
+        return;
+    }
     for (uint32_t i = 0; i < rays->n; i++) {
         struct ray ray = ray_get(rays, i);
-        blocked[i] = list->usable ? hits.prim[i] != PRIM_NONE : accel_any(a, &ray);
+        blocked[i] = accel_any(a, &ray);
     }
 }
 

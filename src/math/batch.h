@@ -9,6 +9,7 @@
 #include "math/ray.h"
 
 #include <stdalign.h>
+#include <string.h>
 
 enum {
     BATCH = 64,
@@ -31,6 +32,26 @@ static inline void vec3_put(struct vec3_batch *b, uint32_t i, struct vec3 p)
     b->x[i] = p.x;
     b->y[i] = p.y;
     b->z[i] = p.z;
+}
+
+static inline void fill(double *to, uint32_t n, double value)
+{
+    for (uint32_t i = 0; i < n; i++)
+        to[i] = value;
+}
+
+static inline void vec3_fill(struct vec3_batch *to, uint32_t n, struct vec3 value)
+{
+    fill(to->x, n, value.x);
+    fill(to->y, n, value.y);
+    fill(to->z, n, value.z);
+}
+
+static inline void vec3_copy(struct vec3_batch *to, uint32_t n, const struct vec3_batch *from)
+{
+    memcpy(to->x, from->x, n * sizeof *to->x);
+    memcpy(to->y, from->y, n * sizeof *to->y);
+    memcpy(to->z, from->z, n * sizeof *to->z);
 }
 
 /* Rays to trace together; see struct ray.  Any surface can be hit. */

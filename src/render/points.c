@@ -54,29 +54,32 @@ static bool interpolates(const struct surface *surface)
     return surface->normals || surface->uvs;
 }
 
-static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, uint32_t k,
-                         struct prim prim)
+/* The primitive of points first to end. */
+static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, uint32_t first,
+                         uint32_t end, struct prim prim)
 {
     const struct geometry *g = &scene->geometry;
-    if (prim.kind == PRIM_SPHERE) {
-        const struct sphere *s = &g->spheres.at[prim.index];
-        vec3_put(&shapes->at, k, s->center);
-        shapes->radius[k] = s->radius;
-    } else if (prim.kind == PRIM_CYLINDER) {
-        const struct cylinder *c = &g->cylinders.at[prim.index];
-        vec3_put(&shapes->at, k, c->base);
-        vec3_put(&shapes->along, k, c->axis);
-        shapes->radius[k] = c->radius;
-        shapes->height[k] = c->height;
-    } else {
-        const struct triangle *t = &g->triangles.at[prim.index];
-        vec3_put(&shapes->at, k, g->vertices.at[t->vertex[0]]);
-        vec3_put(&shapes->along, k, t->normal);
-        if (!interpolates(&scene->surfaces.at[prim.surface]))
-            return;
-        vec3_put(&shapes->second, k, g->vertices.at[t->vertex[1]]);
-        vec3_put(&shapes->third, k, g->vertices.at[t->vertex[2]]);
-        shapes->weighted = true;
+    for (uint32_t k = first; k < end; k++) {
+        if (prim.kind == PRIM_SPHERE) {
+            const struct sphere *s = &g->spheres.at[prim.index];
+            vec3_put(&shapes->at, k, s->center);
+            shapes->radius[k] = s->radius;
+        } else if (prim.kind == PRIM_CYLINDER) {
+            const struct cylinder *c = &g->cylinders.at[prim.index];
+            vec3_put(&shapes->at, k, c->base);
+            vec3_put(&shapes->along, k, c->axis);
+            shapes->radius[k] = c->radius;
+            shapes->height[k] = c->height;
+        } else {
+            const struct triangle *t = &g->triangles.at[prim.index];
+            vec3_put(&shapes->at, k, g->vertices.at[t->vertex[0]]);
+            vec3_put(&shapes->along, k, t->normal);
+            if (!interpolates(&scene->surfaces.at[prim.surface]))
+                continue;
+            vec3_put(&shapes->second, k, g->vertices.at[t->vertex[1]]);
+            vec3_put(&shapes->third, k, g->vertices.at[t->vertex[2]]);
+            shapes->weighted = true;
+        }
     }
 }
 
@@ -94,22 +97,21 @@ static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_
     vec3_put(&shapes->origin, k, vec3_get(&rays->origin, i));
     shapes->t[k] = w->hits.t[i];
     shapes->part[k] = w->hits.part[i];
-    gather_shape(shapes, w->tracer->scene, k, prim);
+    gather_shape(shapes, w->tracer->scene, k, k + 1, prim);
 }
 
 /* Puts the hits in the order of their primitives' kinds. */
-static void gather_points(struct worker *w, const struct ray_batch *rays)
+static void gather_any(struct worker *w, const struct ray_batch *rays)
 {
     const struct prim *prims = w->tracer->scene->geometry.prims.at;
     uint32_t of_kind[PRIM_KINDS][BATCH], n[PRIM_KINDS] = {0};
-    w->points.n = 0;
-    w->shapes.weighted = false;
     for (uint32_t i = 0; i < rays->n; i++) {
         if (w->hits.prim[i] == PRIM_NONE)
             continue;
         unsigned kind = prims[(uint32_t)w->hits.prim[i]].kind;
         of_kind[kind][n[kind]++] = i;
     }
+    w->points.n = 0;
     for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
         w->shapes.first[kind] = w->points.n;
         for (uint32_t k = 0; k < n[kind]; k++) {
@@ -118,6 +120,46 @@ static void gather_points(struct worker *w, const struct ray_batch *rays)
         }
     }
     w->shapes.first[PRIM_KINDS] = w->points.n;
+}
+
+/* All rays hit the same primitive, as those of most tiles do: no hit has to be moved. */
+static void gather_same(struct worker *w, const struct ray_batch *rays)
+{
+    struct shade_batch *points = &w->points;
+    struct hit_shapes *shapes = &w->shapes;
+    uint32_t n = rays->n, number = (uint32_t)w->hits.prim[0];
+    struct prim prim = w->tracer->scene->geometry.prims.at[number];
+    points->n = n;
+    for (uint32_t k = 0; k < n; k++) {
+        points->ray[k] = k;
+        points->prim[k] = number;
+        points->surface[k] = prim.surface;
+    }
+    vec3_copy(&points->incoming, n, &rays->direction);
+    vec3_copy(&shapes->origin, n, &rays->origin);
+    memcpy(points->t, w->hits.t, n * sizeof *points->t);
+    memcpy(shapes->t, w->hits.t, n * sizeof *shapes->t);
+    memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
+    gather_shape(shapes, w->tracer->scene, 0, n, prim);
+    for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
+        shapes->first[kind] = kind <= prim.kind ? 0 : n;
+}
+
+static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
+{
+    bool same = hits->prim[0] != PRIM_NONE;
+    for (uint32_t i = 1; i < n; i++)
+        same &= hits->prim[i] == hits->prim[0];
+    return same;
+}
+
+static void gather_points(struct worker *w, const struct ray_batch *rays)
+{
+    w->shapes.weighted = false;
+    if (all_hit_the_same(&w->hits, rays->n))
+        gather_same(w, rays);
+    else
+        gather_any(w, rays);
 }
 
 /* ---- their surfaces -------------------------------------------------------------------------- */
@@ -210,24 +252,38 @@ static void paint(struct worker *w)
     }
 }
 
-static void finish_points(struct worker *w)
+/* The material of points first to end, which lie on one surface. */
+static void finish_run(struct worker *w, uint32_t first, uint32_t end)
 {
     const struct tracer *t = w->tracer;
     struct shade_batch *points = &w->points;
+    const struct surface *surface = &t->scene->surfaces.at[points->surface[first]];
+    const struct finish *finish = &t->finishes[surface->material];
+    struct vec3 diffuse = finish->material->diffuse;
+    for (uint32_t k = first; k < end; k++) {
+        points->finish[k] = finish;
+        points->power[k] = finish->power;
+        vec3_put(&points->diffuse, k, diffuse);
+        vec3_put(&points->specular, k, finish->specular);
+    }
+    points->any_uneven |= finish->uneven;
+    points->any_glowing |= finish->glows;
+    points->any_bounces |= finish->bounces;
+    if (surface->normals || surface->flip || surface->needs_uv)
+        for (uint32_t k = first; k < end; k++)
+            apply_surface(w, k, surface);
+}
+
+static void finish_points(struct worker *w)
+{
+    struct shade_batch *points = &w->points;
     w->bumps.n = w->paints.n = 0;
     points->any_uneven = points->any_glowing = points->any_bounces = false;
-    for (uint32_t k = 0; k < points->n; k++) {
-        const struct surface *surface = &t->scene->surfaces.at[points->surface[k]];
-        const struct finish *finish = &t->finishes[surface->material];
-        points->finish[k] = finish;
-        vec3_put(&points->diffuse, k, finish->material->diffuse);
-        vec3_put(&points->specular, k, finish->specular);
-        points->power[k] = finish->power;
-        points->any_uneven |= finish->uneven;
-        points->any_glowing |= finish->glows;
-        points->any_bounces |= finish->bounces;
-        if (surface->normals || surface->flip || surface->needs_uv)
-            apply_surface(w, k, surface);
+    for (uint32_t first = 0, end; first < points->n; first = end) {
+        end = first + 1;
+        while (end < points->n && points->surface[end] == points->surface[first])
+            end++;
+        finish_run(w, first, end);
     }
     if (w->bumps.n > 0)
         bend_normals(w);
@@ -242,6 +298,10 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     const struct tracer *t = w->tracer;
     struct target_list list;
     bool inside[BATCH];
+    if (rays->n == 0) {
+        w->points.n = 0;
+        return;
+    }
     find_targets(t, rays, &list);
     bundle_closest(&t->accel, t->bundles, rays, &list, &w->hits);
     meet_crossed_surfaces(w, rays, paths, inside);

@@ -93,8 +93,8 @@ static const struct ray_batch *camera_rays(struct worker *w, const struct tile *
             v[rays->n++] = (j + s.y) / o->height;
         }
     }
-    for (uint32_t i = rays->n; i < BATCH_ROOM; i++)
-        u[i] = v[i] = 0;
+    fill(u + rays->n, BATCH_ROOM - rays->n, 0);
+    fill(v + rays->n, BATCH_ROOM - rays->n, 0);
     t->kernels->aim(&t->lens, u, v, rays->n, &rays->direction);
     return rays;
 }
@@ -113,8 +113,7 @@ static void add_samples(struct worker *w, const struct tile *tile, const struct 
 static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_batch *colours)
 {
     uint32_t n = w->tracer->options->grid;
-    for (uint32_t i = 0; i < BATCH; i++)
-        vec3_put(colours, i, vec3_all(0));
+    vec3_fill(colours, BATCH, vec3_all(0));
     for (uint32_t k = 0; k < n; k++) {
         for (uint32_t l = 0; l < n; l++) {
             struct sample sample = {.k = k, .l = l};

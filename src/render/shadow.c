@@ -304,31 +304,38 @@ static void open_shares(struct worker *w, double *shares)
     }
 }
 
-static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
-                         double *shares)
+/* The rays from the points to the lamp's position; all of them, or those that are lit at all. */
+static void aim_at_position(struct worker *w, struct vec3 position, uint32_t *which)
 {
     const struct shade_batch *points = &w->points;
     struct ray_batch *rays = &w->shadow_rays;
+    rays->n = 0;
+    for (uint32_t k = 0; k < points->n; k++)
+        if (!points->finish[k]->glows)
+            which[rays->n++] = k;
+    if (rays->n == points->n)
+        vec3_copy(&rays->origin, points->n, &points->p);
+    for (uint32_t i = 0; i < rays->n && rays->n < points->n; i++)
+        vec3_put(&rays->origin, i, vec3_get(&points->p, which[i]));
+    for (uint32_t i = 0; i < rays->n; i++) {
+        rays->t_max[i] = 1;
+        rays->from[i] = points->prim[which[i]];
+        vec3_put(&rays->direction, i, vec3_sub(position, vec3_get(&rays->origin, i)));
+    }
+    rays->common_origin = rays->n == 1;
+}
+
+static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
+                         double *shares)
+{
     bool blocked[BATCH];
     uint32_t which[BATCH];
-    rays->n = 0;
-    for (uint32_t k = 0; k < points->n; k++) {
-        shares[k] = 1;
-        if (points->finish[k]->glows)
-            continue;
-        struct vec3 p = vec3_get(&points->p, k);
-        uint32_t i = rays->n++;
-        vec3_put(&rays->origin, i, p);
-        vec3_put(&rays->direction, i, vec3_sub(lamp->light->position, p));
-        rays->t_max[i] = 1;
-        rays->from[i] = points->prim[k];
-        which[i] = k;
-    }
-    if (rays->n == 0)
+    aim_at_position(w, lamp->light->position, which);
+    fill(shares, w->points.n, 1);
+    if (w->shadow_rays.n == 0)
         return;
-    rays->common_origin = rays->n == 1;
     find_blocked(w, list, blocked);
-    for (uint32_t i = 0; i < rays->n; i++)
+    for (uint32_t i = 0; i < w->shadow_rays.n; i++)
         shares[which[i]] = blocked[i] ? 0 : 1;
 }
 

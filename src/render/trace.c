@@ -122,8 +122,7 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
 {
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
-    for (uint32_t i = 0; i < rays->n; i++)
-        vec3_put(colours, i, vec3_all(0));
+    vec3_fill(colours, rays->n, vec3_all(0));
     find_points(w, rays, paths);
     shade_points(w);
     for (uint32_t k = 0; k < w->points.n; k++)

@@ -7,8 +7,8 @@
 #define WRT_RENDER_TRACER_H
 
 #include "accel/shaft.h"
-#include "scene/camera.h"
 #include "render/render.h"
+#include "scene/camera.h"
 
 /* A light made ready. */
 struct lamp {
