@@ -161,6 +161,51 @@ char *file_resolve(const char *beside, const char *name, size_t name_length)
     return memcpy(mem_alloc(sizeof "./-", 1), "./-", sizeof "./-");
 }
 
+/* The real name of the folder of a path, without a slash at its end; NULL: it cannot be told. */
+static char *real_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    size_t n = slash ? (size_t)(slash + 1 - path) : 0;
+    char *folder = mem_alloc(n + sizeof ".", 1);
+    memcpy(folder, path, n);
+    memcpy(folder + n, ".", sizeof ".");
+    char *real = realpath(folder, NULL);
+    free(folder);
+    if (real && strcmp(real, "/") == 0)
+        real[0] = 0;
+    return real;
+}
+
+/* The path of a name in folder `to`, from folder `from`; both are real names. */
+static char *climb(const char *from, const char *to, const char *name)
+{
+    size_t same = 0, i = 0, up = 0;
+    for (; from[i] && from[i] == to[i]; i++)
+        same = from[i] == '/' ? i : same;
+    if ((!from[i] || from[i] == '/') && (!to[i] || to[i] == '/'))
+        same = i; /* one is within the other, or they are equal */
+    for (const char *p = from + same; *p; p++)
+        up += *p == '/';
+    const char *down = to[same] ? to + same + 1 : to + same;
+    char *path = mem_alloc(3 * up + strlen(down) + 1 + strlen(name) + 1, 1), *end = path;
+    for (; up; up--)
+        end = stpcpy(end, "../");
+    end = stpcpy(end, down);
+    stpcpy(*down ? stpcpy(end, "/") : end, name);
+    return path;
+}
+
+char *file_relative(const char *beside, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *from = real_folder(beside), *to = real_folder(path), *relative = NULL;
+    if (from && to && path[0] != '/')
+        relative = climb(from, to, slash ? slash + 1 : path);
+    free(from);
+    free(to);
+    return relative ? relative : strcpy(mem_alloc(strlen(path) + 1, 1), path);
+}
+
 bool file_identify(const char *path, struct file_id *id)
 {
     struct stat st;

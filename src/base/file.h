@@ -26,6 +26,11 @@ const char *file_write(const char *path, const void *data, size_t n);
  * current one when that spells none.  A file called "-" is itself.  Caller frees. */
 char *file_resolve(const char *beside, const char *name, size_t name_length);
 
+/* The path of an existing file as one spells it in the file `beside`, which may not exist yet: the
+ * opposite of file_resolve.  An absolute path stays, and so does one whose folders cannot be told.
+ * Caller frees. */
+char *file_relative(const char *beside, const char *path);
+
 /* Identity of an existing file, to load each one once; false when it cannot be told. */
 struct file_id {
     uint64_t device, inode;

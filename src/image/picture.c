@@ -161,8 +161,12 @@ struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON
     const struct signature *s = signature_of(bytes, n);
     if (s && s->kind == KIND_PNG)
         return png_file_decode(bytes, n, reason);
-    if (s && s->kind == KIND_JPEG)
-        return jpeg_file_decode(bytes, n, reason);
+    if (s && s->kind == KIND_JPEG) {
+        struct image *image = jpeg_file_decode(bytes, n, reason);
+        if (image)
+            image->jpeg = true;
+        return image;
+    }
     if (s)
         image_reason(reason, "%s pictures are not read as textures; PNG and JPEG are", s->name);
     else

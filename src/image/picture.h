@@ -33,6 +33,7 @@ struct image {
     uint32_t width, height;
     uint8_t *data8;   /* 3 width height, or NULL */
     uint16_t *data16; /* 3 width height, or NULL */
+    bool jpeg;        /* what the file was; PNG otherwise */
 };
 
 /* Room for the reason of a failure: lower case, no full stop, NUL-terminated. */

@@ -56,7 +56,9 @@ uint32_t lower_texture(struct lowering *l, const struct desc_object *o)
         return TEXTURE_NONE;
     if (l->texture_of[o->number] != TEXTURE_NONE)
         return l->texture_of[o->number];
-    struct texture t = {.image = load_image(l, desc_get(o, PROP_FILE)),
+    const struct desc_value *file = desc_get(o, PROP_FILE);
+    struct texture t = {.image = load_image(l, file),
+                        .file = path_of(l, file),
                         .linear = desc_word(o, PROP_FILTER) == 1};
     uint32_t number = (uint32_t)l->scene->textures.n;
     vec_push(&l->scene->textures, t);

@@ -71,6 +71,7 @@ void lower_light(struct lowering *l, const struct desc_object *o)
         .position = desc_vector(o, PROP_LIGHT_POSITION),
         .intensity = desc_vector(o, PROP_INTENSITY),
         .inverse_square = desc_word(o, PROP_FALLOFF) == 1,
+        .span = o->span,
     };
     if (light.kind == LIGHT_AREA)
         lower_area(l, o, &light);

@@ -27,6 +27,7 @@ struct camera {
 struct texture {
     const struct image *image; /* one of the scene's */
     bool linear;         /* bilinear filter, else nearest */
+    const char *file;    /* relative to the current folder */
 };
 
 /* uv * scale + offset */
@@ -91,6 +92,7 @@ struct light {
     /* area lights: */
     struct geometry object; /* not part of the scene's geometry */
     VEC(struct light_point) points;
+    struct span span; /* where the scene text says it */
 };
 
 struct scene {

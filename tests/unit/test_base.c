@@ -654,6 +654,40 @@ START_TEST(string_begins)
 }
 END_TEST
 
+static const struct {
+    const char *beside, *path, *relative;
+} relatives[] = {
+    {"a.pov", "t.png", "t.png"},
+    {"a.pov", "in/t.png", "in/t.png"},
+    {"out/a.pov", "t.png", "../t.png"},
+    {"out/a.pov", "in/t.png", "../in/t.png"},
+    {"out/a.pov", "out/t.png", "t.png"},
+    {"out/a.pov", "out/deep/t.png", "deep/t.png"},
+    {"out/deep/a.pov", "out/t.png", "../t.png"},
+    {"out/deep/a.pov", "in/../t.png", "../../t.png"},
+    {"out/../in/a.pov", "inner/t.png", "../inner/t.png"},
+    {"inner/a.pov", "in/t.png", "../in/t.png"},
+    {"-", "in/t.png", "in/t.png"},
+    {"out/a.pov", "/t.png", "/t.png"},
+    {"none/a.pov", "t.png", "t.png"},
+    {"out/a.pov", "none/t.png", "none/t.png"},
+};
+
+START_TEST(file_made_relative)
+{
+    make_folder();
+    ck_assert_int_eq(mkdir("in", 0777), 0);
+    ck_assert_int_eq(mkdir("inner", 0777), 0);
+    ck_assert_int_eq(mkdir("out", 0777), 0);
+    ck_assert_int_eq(mkdir("out/deep", 0777), 0);
+    char *relative = file_relative(relatives[_i].beside, relatives[_i].path);
+    ck_assert_str_eq(relative, relatives[_i].relative);
+    free(relative);
+    rmdir("out/deep");
+    remove_folder(3);
+}
+END_TEST
+
 Suite *base_suite(void)
 {
     Suite *s = suite_create("base");
@@ -695,6 +729,7 @@ Suite *base_suite(void)
     tcase_add_test(t, file_not_written);
     tcase_add_test(t, file_not_read);
     tcase_add_loop_test(t, file_resolved, 0, COUNT(resolutions));
+    tcase_add_loop_test(t, file_made_relative, 0, COUNT(relatives));
     suite_add_tcase(s, t);
     return s;
 }

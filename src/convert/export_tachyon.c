@@ -1,0 +1,242 @@
+/* A scene for Tachyon 0.99, whose highlights are classic's with -shade_phong.  Its lights, like
+ * classic's, need no gamma. */
+#include "config.h"
+
+#include "convert/exporting.h"
+#include "scene/camera.h"
+
+#include <stdlib.h>
+
+enum { RAY_DEPTH = 5 }; /* classic's 3 reflections, with room */
+
+struct tachyon {
+    struct exporting e;
+    struct export_names materials;
+    uint32_t *name_of; /* of each of the scene's materials */
+};
+
+static void add_vector(struct buffer *out, const char *name, struct vec3 v)
+{
+    buffer_printf(out, " %s ", name);
+    export_vec3(out, v, " ");
+}
+
+static void add_number(struct buffer *out, const char *name, double x)
+{
+    buffer_printf(out, " %s ", name);
+    buffer_number(out, x);
+}
+
+/* ---- camera and lights ----------------------------------------------------------------------- */
+
+/* The picture lies at distance 1, its right is up x view: that is classic's, too.  Tachyon samples
+ * pixels at their upper right corners; half a pixel less is their middle. */
+static void add_camera(struct exporting *e)
+{
+    const struct camera *c = &e->scene->camera;
+    struct lens lens = lens_of(c, c->width, c->height);
+    struct vec3 flip = vec3(1, 1, lens.mirrored ? -1 : 1);
+    double right = vec3_length(lens.across), top = vec3_length(lens.upwards);
+    double sides[4] = {-right - right / c->width, right - right / c->width, -top - top / c->height,
+                       top - top / c->height};
+    buffer_printf(
+        e->out, "CAMERA\n PROJECTION PERSPECTIVE ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH %d\n",
+        RAY_DEPTH);
+    add_vector(e->out, "CENTER", lens.origin);
+    add_vector(e->out, "VIEWDIR", vec3_mul(lens.ahead, flip));
+    add_vector(e->out, "UPDIR", vec3_mul(lens.upwards, flip));
+    buffer_puts(e->out, "\n FRUSTUM");
+    for (int i = 0; i < 4; i++)
+        add_number(e->out, "", sides[i]);
+    buffer_puts(e->out, "\nEND_CAMERA\nBACKGROUND 0 0 0\n");
+}
+
+/* A light of radius 0 is not seen itself. */
+static void add_light(struct exporting *e, const struct light *l)
+{
+    buffer_puts(e->out, "LIGHT");
+    add_vector(e->out, "CENTER", l->position);
+    buffer_puts(e->out, " RAD 0");
+    if (l->inverse_square)
+        buffer_puts(e->out, " ATTENUATION CONSTANT 0 LINEAR 0 QUADRATIC 1");
+    add_vector(e->out, "COLOR", l->intensity);
+    buffer_puts(e->out, "\n");
+    if (l->kind == LIGHT_AREA)
+        export_lose(e, LOSS_AREA_POINT, l->span);
+}
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+static void add_highlight(struct buffer *out, const struct material *m)
+{
+    bool metallic = !vec3_is_even(m->specular) && export_is_tint(m->specular, m->diffuse);
+    if (vec3_is_zero(m->specular))
+        return;
+    add_number(out, metallic ? "PHONG METAL" : "PHONG PLASTIC",
+               vec3_mean(m->specular) / (metallic ? vec3_mean(m->diffuse) : 1));
+    add_number(out, "PHONG_SIZE", m->exponent);
+}
+
+static void add_material(const struct exporting *e, struct buffer *out, const struct material *m)
+{
+    bool emissive = m->kind == MATERIAL_EMISSIVE;
+    double through = vec3_mean(vec3_mul(m->refraction, e->light));
+    buffer_puts(out, emissive ? "AMBIENT 1 DIFFUSE 0" : "AMBIENT 0 DIFFUSE 1");
+    add_number(out, "SPECULAR", vec3_mean(vec3_mul(m->reflection, e->light)));
+    add_number(out, "OPACITY", 1 - fmax(fmin(through, 1), 0));
+    add_highlight(out, m);
+    add_vector(out, "COLOR", emissive ? vec3_mul(m->diffuse, e->light) : m->diffuse);
+    buffer_puts(out, " TEXFUNC 0");
+}
+
+/* Equal materials, of which XML makes many, are defined once. */
+static void define_materials(struct tachyon *t)
+{
+    const struct scene *s = t->e.scene;
+    struct buffer text = {0};
+    t->name_of = mem_zalloc(s->materials.n, sizeof *t->name_of);
+    for (size_t i = 0; i < s->materials.n; i++) {
+        bool fresh;
+        text.n = 0;
+        add_material(&t->e, &text, &s->materials.at[i]);
+        t->name_of[i] = export_name(&t->materials, (struct str){text.at, text.n}, &fresh);
+        if (fresh)
+            buffer_printf(t->e.out, "TEXDEF M%u %.*s\n", t->name_of[i], (int)text.n, text.at);
+    }
+    buffer_free(&text);
+}
+
+static void note_losses(struct exporting *e, const struct surface *s, const struct material *m)
+{
+    if (s->normal_map != TEXTURE_NONE)
+        export_lose(e, LOSS_NORMAL_MAP, s->span);
+    if (m->texture != TEXTURE_NONE)
+        export_lose(e, LOSS_TEXTURE, s->span);
+    if (!vec3_is_even(m->specular) && !export_is_tint(m->specular, m->diffuse))
+        export_lose(e, LOSS_HIGHLIGHT, s->span);
+    if (!vec3_is_even(m->reflection))
+        export_lose(e, LOSS_REFLECTION, s->span);
+    if (m->kind == MATERIAL_GLASS)
+        export_lose(e, LOSS_BENDING, s->span);
+    if (m->kind == MATERIAL_EMISSIVE)
+        export_lose(e, LOSS_EMISSIVE_SHADOW, s->span);
+    if (e->falls_off && (!vec3_is_zero(m->reflection) || !vec3_is_zero(m->refraction)))
+        export_lose(e, LOSS_FALLOFF, s->span);
+}
+
+/* ---- surfaces -------------------------------------------------------------------------------- */
+
+static void add_sphere(struct buffer *out, const struct sphere *s, uint32_t material)
+{
+    buffer_puts(out, "SPHERE");
+    add_vector(out, "CENTER", s->center);
+    add_number(out, "RAD", s->radius);
+    buffer_printf(out, " M%u\n", material);
+}
+
+static void add_cap(struct buffer *out, struct vec3 center, struct vec3 normal, double radius,
+                    uint32_t material)
+{
+    buffer_puts(out, "RING");
+    add_vector(out, "CENTER", center);
+    add_vector(out, "NORMAL", normal);
+    add_number(out, "INNER 0 OUTER", radius);
+    buffer_printf(out, " M%u\n", material);
+}
+
+static void add_cylinder(struct buffer *out, const struct cylinder *c, uint32_t material)
+{
+    struct vec3 top = vec3_mad(c->base, c->height, c->axis);
+    buffer_puts(out, "FCYLINDER");
+    add_vector(out, "BASE", c->base);
+    add_vector(out, "APEX", top);
+    add_number(out, "RAD", c->radius);
+    buffer_printf(out, " M%u\n", material);
+    add_cap(out, c->base, vec3_neg(c->axis), c->radius, material);
+    add_cap(out, top, c->axis, c->radius, material);
+}
+
+static void add_vectors(struct buffer *out, const char *name, const struct vec3 *v, size_t n)
+{
+    buffer_printf(out, "%s\n", name);
+    for (size_t i = 0; i < n; i++) {
+        export_vec3(out, v[i], " ");
+        buffer_puts(out, "\n");
+    }
+}
+
+/* An array takes its material written out. */
+static void add_smooth(struct tachyon *t, const struct surface *s, const struct facets *f)
+{
+    struct buffer *out = t->e.out;
+    buffer_printf(out, "VERTEXARRAY NUMVERTS %u\n", f->vertices);
+    add_vectors(out, "COORDS", &t->e.scene->geometry.vertices.at[f->first_vertex], f->vertices);
+    add_vectors(out, "NORMALS", s->normals, f->vertices);
+    buffer_puts(out, "TEXTURE ");
+    add_material(&t->e, out, &t->e.scene->materials.at[s->material]);
+    buffer_printf(out, "\nTRIMESH %zu\n", f->solid);
+    for (size_t i = 0; i < f->n; i++) {
+        const uint32_t *v = f->at[i].vertex;
+        if (!vec3_is_zero(f->at[i].normal))
+            buffer_printf(out, "%u %u %u\n", v[0] - f->first_vertex, v[1] - f->first_vertex,
+                          v[2] - f->first_vertex);
+    }
+    buffer_puts(out, "END_VERTEXARRAY\n");
+}
+
+static void add_flat(struct buffer *out, const struct vec3 *vertices, const struct facets *f,
+                     uint32_t material)
+{
+    for (size_t i = 0; i < f->n; i++) {
+        const uint32_t *v = f->at[i].vertex;
+        if (vec3_is_zero(f->at[i].normal))
+            continue;
+        buffer_puts(out, "TRI");
+        add_vector(out, "V0", vertices[v[0]]);
+        add_vector(out, "V1", vertices[v[1]]);
+        add_vector(out, "V2", vertices[v[2]]);
+        buffer_printf(out, " M%u\n", material);
+    }
+}
+
+static void add_surface(struct tachyon *t, const struct surface *s)
+{
+    const struct scene *scene = t->e.scene;
+    struct buffer *out = t->e.out;
+    uint32_t material = t->name_of[s->material];
+    bool round = s->kind == SURFACE_SPHERE || s->kind == SURFACE_CYLINDER;
+    note_losses(&t->e, s, &scene->materials.at[s->material]);
+    for (uint32_t i = 0; round && i < s->prim_count; i++) {
+        if (s->kind == SURFACE_SPHERE)
+            add_sphere(out, export_sphere(scene, s->first_prim + i), material);
+        else
+            add_cylinder(out, export_cylinder(scene, s->first_prim + i), material);
+    }
+    if (round)
+        return;
+    struct facets f = export_facets(scene, s);
+    if (s->normals)
+        add_smooth(t, s, &f);
+    else
+        add_flat(out, scene->geometry.vertices.at, &f, material);
+}
+
+void export_tachyon(const struct scene *scene, struct buffer *out, struct diag *diag)
+{
+    struct tachyon t = {0};
+    export_begin(&t.e, scene, out, diag);
+    buffer_printf(out,
+                  "# made by wrt: tachyon FILE -shade_phong -format PNG -o FILE.png\n"
+                  "BEGIN_SCENE\nRESOLUTION %u %u\n",
+                  scene->camera.width, scene->camera.height);
+    add_camera(&t.e);
+    for (size_t i = 0; i < scene->lights.n; i++)
+        add_light(&t.e, &scene->lights.at[i]);
+    define_materials(&t);
+    for (size_t i = 0; i < scene->surfaces.n; i++)
+        add_surface(&t, &scene->surfaces.at[i]);
+    buffer_puts(out, "END_SCENE\n");
+    export_end(&t.e);
+    export_names_free(&t.materials);
+    free(t.name_of);
+}

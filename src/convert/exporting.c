@@ -1,0 +1,116 @@
+#include "config.h"
+
+#include "convert/exporting.h"
+
+static const char *const loss_words[LOSS_COUNT] = {
+#define LOSS(id, words) [LOSS_##id] = words,
+    LOSSES(LOSS)
+#undef LOSS
+};
+
+static void sum_lights(struct exporting *e)
+{
+    const struct scene *s = e->scene;
+    struct vec3 middle = box_center(geometry_bounds(&s->geometry));
+    for (size_t i = 0; i < s->lights.n; i++) {
+        const struct light *l = &s->lights.at[i];
+        struct vec3 d = vec3_sub(l->position, middle);
+        double weight = l->inverse_square ? 1 / vec3_dot(d, d) : 1;
+        e->light = vec3_mad(e->light, isfinite(weight) ? weight : 1, l->intensity);
+        e->falls_off |= l->inverse_square;
+    }
+}
+
+void export_begin(struct exporting *e, const struct scene *scene, struct buffer *out,
+                  struct diag *diag)
+{
+    *e = (struct exporting){.scene = scene, .out = out, .diag = diag};
+    sum_lights(e);
+}
+
+void export_lose(struct exporting *e, enum loss loss, struct span span)
+{
+    if (!e->losses[loss].times++)
+        e->losses[loss].first = span;
+}
+
+void export_end(struct exporting *e)
+{
+    for (int i = 0; i < LOSS_COUNT; i++) {
+        size_t times = e->losses[i].times;
+        if (times == 1)
+            diag_report(e->diag, DIAG_LEFT_OUT, e->losses[i].first, "%s", loss_words[i]);
+        else if (times > 1)
+            diag_report(e->diag, DIAG_LEFT_OUT, e->losses[i].first,
+                        "%s, here for the first time of %zu", loss_words[i], times);
+    }
+}
+
+void export_vec3(struct buffer *out, struct vec3 v, const char *between)
+{
+    buffer_number(out, v.x);
+    buffer_puts(out, between);
+    buffer_number(out, v.y);
+    buffer_puts(out, between);
+    buffer_number(out, v.z);
+}
+
+double vec3_mean(struct vec3 v)
+{
+    return (v.x + v.y + v.z) / 3;
+}
+
+bool vec3_is_even(struct vec3 v)
+{
+    return v.x == v.y && v.y == v.z;
+}
+
+bool export_is_tint(struct vec3 colour, struct vec3 base)
+{
+    double share = vec3_mean(colour) / vec3_mean(base);
+    return vec3_largest(vec3_mad(colour, -share, base)) <= 1e-9 * vec3_largest(colour);
+}
+
+struct facets export_facets(const struct scene *scene, const struct surface *s)
+{
+    const struct geometry *g = &scene->geometry;
+    struct facets f = {.n = s->prim_count, .first_vertex = s->first_vertex};
+    if (!f.n)
+        return f;
+    f.at = &g->triangles.at[g->prims.at[s->first_prim].index];
+    for (size_t i = 0; i < f.n; i++) {
+        f.solid += !vec3_is_zero(f.at[i].normal);
+        for (int k = 0; k < 3; k++) {
+            uint32_t v = f.at[i].vertex[k] - f.first_vertex;
+            f.vertices = v >= f.vertices ? v + 1 : f.vertices;
+        }
+    }
+    return f;
+}
+
+const struct cylinder *export_cylinder(const struct scene *scene, uint32_t prim)
+{
+    return &scene->geometry.cylinders.at[scene->geometry.prims.at[prim].index];
+}
+
+const struct sphere *export_sphere(const struct scene *scene, uint32_t prim)
+{
+    return &scene->geometry.spheres.at[scene->geometry.prims.at[prim].index];
+}
+
+uint32_t export_name(struct export_names *names, struct str text, bool *fresh)
+{
+    uintptr_t known = (uintptr_t)map_get(&names->map, text);
+    *fresh = !known;
+    if (known)
+        return (uint32_t)(known - 1);
+    struct str key = {arena_copy(&names->arena, text.at, text.n), text.n};
+    map_set(&names->map, key, (void *)((uintptr_t)names->n + 1)); /* a number, not a place */
+    return names->n++;
+}
+
+void export_names_free(struct export_names *names)
+{
+    map_free(&names->map);
+    arena_free(&names->arena);
+}

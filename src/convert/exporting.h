@@ -1,0 +1,80 @@
+/* What the writers share (internal to src/convert). */
+#ifndef WRT_CONVERT_EXPORTING_H
+#define WRT_CONVERT_EXPORTING_H
+
+#include "base/arena.h"
+#include "base/map.h"
+#include "convert/export.h"
+
+/* What a format cannot say, in the words of its note. */
+#define LOSSES(X)                                                                          \
+    X(NORMAL_MAP, "normal maps are left out")                                              \
+    X(TEXTURE, "textures are left out: surfaces have their plain colour")                  \
+    X(CYLINDER_UV, "the scale of textures around cylinders is left out")                   \
+    X(HIGHLIGHT, "coloured highlights become white ones of the same mean")                 \
+    X(REFLECTION, "coloured reflection becomes uncoloured of the same mean")               \
+    X(REFRACTION, "coloured refraction becomes uncoloured of the same mean")               \
+    X(BENDING, "glass is seen through without bending the light")                          \
+    X(AREA_GRID, "area lights become flat grids of points")                                \
+    X(AREA_POINT, "area lights become points: their shadows are hard")                     \
+    X(EMISSIVE_SHADOW, "emissive surfaces cast shadows")                                   \
+    X(FALLOFF,                                                                             \
+      "reflection and refraction take the strength of falling off lights from the middle " \
+      "of the scene")
+
+enum loss {
+#define LOSS(id, words) LOSS_##id,
+    LOSSES(LOSS)
+#undef LOSS
+        LOSS_COUNT
+};
+
+struct exporting {
+    const struct scene *scene;
+    struct buffer *out;
+    struct diag *diag;
+    struct vec3 light; /* sum of all lights' intensities: what classic scales reflections by */
+    bool falls_off;    /* a light weakens with distance, so `light` is that of the scene's middle */
+    struct {
+        size_t times;
+        struct span first;
+    } losses[LOSS_COUNT];
+};
+
+void export_begin(struct exporting *e, const struct scene *scene, struct buffer *out,
+                  struct diag *diag);
+/* Reports what was left out. */
+void export_end(struct exporting *e);
+void export_lose(struct exporting *e, enum loss loss, struct span span);
+
+/* The numbers of a vector with `between` between them. */
+void export_vec3(struct buffer *out, struct vec3 v, const char *between);
+
+double vec3_mean(struct vec3 v);
+bool vec3_is_even(struct vec3 v);
+/* True when the colour is the base times a number. */
+bool export_is_tint(struct vec3 colour, struct vec3 base);
+
+/* A run of a surface's triangles and the vertices they use. */
+struct facets {
+    const struct triangle *at;
+    size_t n, solid; /* all, and those that have an area: the others are never hit */
+    uint32_t first_vertex, vertices;
+};
+struct facets export_facets(const struct scene *scene, const struct surface *s);
+
+/* The cylinders or the sphere of a surface. */
+const struct cylinder *export_cylinder(const struct scene *scene, uint32_t prim);
+const struct sphere *export_sphere(const struct scene *scene, uint32_t prim);
+
+/* Texts of materials, each kept once and numbered from 0. */
+struct export_names {
+    struct arena arena;
+    struct map map;
+    uint32_t n;
+};
+/* The number of the text; *fresh when it was not known before. */
+uint32_t export_name(struct export_names *names, struct str text, bool *fresh);
+void export_names_free(struct export_names *names);
+
+#endif
