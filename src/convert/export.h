@@ -11,12 +11,14 @@
  * at the first place that asks for it. */
 
 /* Everything, in the layout that wrt(1) documents. */
-void export_json(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag);
+void export_json(const struct scene *scene, const char *path, struct buffer *out,
+                 struct diag *diag);
 
 /* A scene for POV-Ray 3.7. */
 void export_pov(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag);
 
 /* A scene for Tachyon 0.99. */
-void export_tachyon(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag);
+void export_tachyon(const struct scene *scene, const char *path, struct buffer *out,
+                    struct diag *diag);
 
 #endif

@@ -1,9 +1,10 @@
 /* The lowered scene as JSON, in the layout that wrt(1) documents. */
 #include "config.h"
 
+#include "base/file.h"
 #include "convert/exporting.h"
 
-#include <string.h>
+#include <stdlib.h>
 
 enum { LAYOUT_VERSION = 1 };
 
@@ -133,10 +134,12 @@ static void add_camera(struct json *j, const struct camera *c)
     close_with(j, "}");
 }
 
-static void add_texture(struct json *j, const struct texture *t)
+static void add_texture(struct json *j, const struct texture *t, const char *path)
 {
+    char *file = file_relative(path, t->file);
     open_item(j);
-    add_word(j, "file", t->file);
+    add_word(j, "file", file);
+    free(file);
     add_word(j, "filter", t->linear ? "linear" : "nearest");
     add_key(j, "size");
     add_vec2(j, (struct vec2){t->image->width, t->image->height});
@@ -229,21 +232,30 @@ static void add_points(struct json *j, const char *key, const struct vec3 *v, si
     close_with(j, "]");
 }
 
+static void add_corners(struct json *j, struct triangle_corners c)
+{
+    separate(j);
+    buffer_printf(j->out, "[%u,%u,%u]", c.at[0], c.at[1], c.at[2]);
+}
+
 static void add_facets(struct json *j, const struct scene *scene, const struct surface *s)
 {
     struct facets f = export_facets(scene, s);
-    add_points(j, "vertices", scene->geometry.vertices.at + f.first_vertex, f.vertices);
+    add_points(j, "vertices", f.points, f.point_count);
     add_key(j, "triangles");
     open_with(j, "[");
-    for (size_t i = 0; i < f.n; i++) {
-        const uint32_t *v = f.at[i].vertex;
-        separate(j);
-        buffer_printf(j->out, "[%u,%u,%u]", v[0] - f.first_vertex, v[1] - f.first_vertex,
-                      v[2] - f.first_vertex);
-    }
+    for (size_t i = 0; i < f.n; i++)
+        add_corners(j, export_corners(&f, i));
     close_with(j, "]");
     if (s->normals)
-        add_points(j, "normals", s->normals, f.vertices);
+        add_points(j, "normals", s->normals, f.normal_count);
+    if (s->normal_corners) {
+        add_key(j, "normal_triangles");
+        open_with(j, "[");
+        for (size_t i = 0; i < f.n; i++)
+            add_corners(j, s->normal_corners[i]);
+        close_with(j, "]");
+    }
     if (!s->uvs)
         return;
     add_key(j, "uvs");
@@ -283,7 +295,7 @@ static void add_surface(struct json *j, const struct scene *scene, const struct 
     close_with(j, "}");
 }
 
-void export_json(const struct scene *scene, struct buffer *out, struct diag *diag)
+void export_json(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag)
 {
     struct json j = {out, false};
     open_with(&j, "{");
@@ -294,7 +306,7 @@ void export_json(const struct scene *scene, struct buffer *out, struct diag *dia
     add_camera(&j, &scene->camera);
     open_list(&j, "textures");
     for (size_t i = 0; i < scene->textures.n; i++)
-        add_texture(&j, &scene->textures.at[i]);
+        add_texture(&j, &scene->textures.at[i], path);
     close_with(&j, "]");
     open_list(&j, "materials");
     for (size_t i = 0; i < scene->materials.n; i++)

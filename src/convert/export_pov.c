@@ -6,10 +6,11 @@
  * its full shadow. */
 #include "config.h"
 
+#include "base/file.h"
 #include "convert/exporting.h"
 #include "scene/camera.h"
 
-#include <string.h>
+#include <stdlib.h>
 
 /* POV-Ray weakens what is diffuse by the share that shines through; a share of 1 would leave
  * nothing to make up for that with. */
@@ -172,7 +173,9 @@ static void add_picture(struct exporting *e, const struct material *m,
     const struct texture *t = &e->scene->textures.at[m->texture];
     buffer_puts(e->out, mapping->around ? "image_map { " : "uv_mapping image_map { ");
     buffer_puts(e->out, t->image->jpeg ? "jpeg " : "png ");
-    add_string(e->out, t->file);
+    char *file = file_relative(e->path, t->file);
+    add_string(e->out, file);
+    free(file);
     buffer_puts(e->out, mapping->around ? " map_type 2" : "");
     buffer_puts(e->out, t->linear ? " interpolate 2" : "");
     if (transmit > 0)
@@ -368,20 +371,24 @@ static void add_uvs(struct buffer *out, const struct vec2 *uv, size_t n)
     buffer_puts(out, " }\n");
 }
 
-/* The faces' vertices, or the pairs of texture coordinates, of which each has its own three. */
-static void add_faces(struct buffer *out, const struct facets *f, bool uvs)
+enum face_part { FACE_POINTS, FACE_NORMALS, FACE_UVS };
+
+/* What the faces are made of; of texture coordinates each has its own three. */
+static void add_faces(struct buffer *out, const struct facets *f, const struct surface *s,
+                      enum face_part what)
 {
-    buffer_printf(out, " %s { %zu", uvs ? "uv_indices" : "face_indices", f->solid);
+    static const char *const names[] = {"face_indices", "normal_indices", "uv_indices"};
+    buffer_printf(out, " %s { %zu", names[what], f->solid);
     for (size_t i = 0, k = 0; i < f->n; i++) {
-        const uint32_t *v = f->at[i].vertex;
+        struct triangle_corners c = {
+            {(uint32_t)(3 * i), (uint32_t)(3 * i + 1), (uint32_t)(3 * i + 2)}};
         if (vec3_is_zero(f->at[i].normal))
             continue;
-        buffer_puts(out, k++ % 6 ? "," : ",\n");
-        if (uvs)
-            buffer_printf(out, "<%zu,%zu,%zu>", 3 * i, 3 * i + 1, 3 * i + 2);
-        else
-            buffer_printf(out, "<%u,%u,%u>", v[0] - f->first_vertex, v[1] - f->first_vertex,
-                          v[2] - f->first_vertex);
+        if (what == FACE_POINTS)
+            c = export_corners(f, i);
+        else if (what == FACE_NORMALS)
+            c = export_normal_corners(f, s, i);
+        buffer_printf(out, "%s<%u,%u,%u>", k++ % 6 ? "," : ",\n", c.at[0], c.at[1], c.at[2]);
     }
     buffer_puts(out, " }\n");
 }
@@ -390,14 +397,16 @@ static void open_facets(struct exporting *e, const struct surface *s)
 {
     struct facets f = export_facets(e->scene, s);
     buffer_puts(e->out, "mesh2 {\n");
-    add_vertices(e->out, &e->scene->geometry.vertices.at[f.first_vertex], f.vertices);
+    add_vertices(e->out, f.points, f.point_count);
     if (s->normals)
-        add_normals(e->out, s->normals, f.vertices);
+        add_normals(e->out, s->normals, f.normal_count);
     if (s->uvs)
         add_uvs(e->out, s->uvs, 3 * f.n);
-    add_faces(e->out, &f, false);
+    add_faces(e->out, &f, s, FACE_POINTS);
+    if (s->normal_corners)
+        add_faces(e->out, &f, s, FACE_NORMALS);
     if (s->uvs)
-        add_faces(e->out, &f, true);
+        add_faces(e->out, &f, s, FACE_UVS);
 }
 
 /* A normal map's coordinates, left out with it otherwise, are also those of the texture. */
@@ -475,10 +484,10 @@ static void add_head(struct exporting *e)
                   c->width, c->height, TRACE_LEVEL);
 }
 
-void export_pov(const struct scene *scene, struct buffer *out, struct diag *diag)
+void export_pov(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag)
 {
     struct pov p = {0};
-    export_begin(&p.e, scene, out, diag);
+    export_begin(&p.e, scene, path, out, diag);
     add_head(&p.e);
     add_camera(&p.e);
     for (size_t i = 0; i < scene->lights.n; i++)

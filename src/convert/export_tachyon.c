@@ -77,6 +77,21 @@ static void add_highlight(struct buffer *out, const struct material *m)
     add_number(out, "PHONG_SIZE", m->exponent);
 }
 
+/* The mean of what a texture shows at a grid of places; white without one. */
+static struct vec3 mean_texel(const struct scene *scene, const struct material *m)
+{
+    enum { ALONG = 32 };
+    struct vec3 sum = {0, 0, 0};
+    if (m->texture == TEXTURE_NONE)
+        return vec3_all(1);
+    for (int i = 0; i < ALONG * ALONG; i++) {
+        double u = (i % ALONG + 0.5) / ALONG, v = (i / ALONG + 0.5) / ALONG;
+        struct vec3 texel = texture_fetch(&scene->textures.at[m->texture], u, v);
+        sum = vec3_mad(sum, 1.0 / (ALONG * ALONG), texel);
+    }
+    return sum;
+}
+
 static void add_material(const struct exporting *e, struct buffer *out, const struct material *m)
 {
     bool emissive = m->kind == MATERIAL_EMISSIVE;
@@ -85,7 +100,8 @@ static void add_material(const struct exporting *e, struct buffer *out, const st
     add_number(out, "SPECULAR", vec3_mean(vec3_mul(m->reflection, e->light)));
     add_number(out, "OPACITY", 1 - fmax(fmin(through, 1), 0));
     add_highlight(out, m);
-    add_vector(out, "COLOR", emissive ? vec3_mul(m->diffuse, e->light) : m->diffuse);
+    struct vec3 colour = vec3_mul(m->diffuse, mean_texel(e->scene, m));
+    add_vector(out, "COLOR", emissive ? vec3_mul(colour, e->light) : colour);
     buffer_puts(out, " TEXFUNC 0");
 }
 
@@ -165,36 +181,44 @@ static void add_vectors(struct buffer *out, const char *name, const struct vec3 
     }
 }
 
-/* An array takes its material written out. */
-static void add_smooth(struct tachyon *t, const struct surface *s, const struct facets *f)
+/* One normal a vertex.  An array takes its material written out. */
+static void add_array(struct tachyon *t, const struct surface *s, const struct facets *f)
 {
     struct buffer *out = t->e.out;
-    buffer_printf(out, "VERTEXARRAY NUMVERTS %u\n", f->vertices);
-    add_vectors(out, "COORDS", &t->e.scene->geometry.vertices.at[f->first_vertex], f->vertices);
-    add_vectors(out, "NORMALS", s->normals, f->vertices);
+    buffer_printf(out, "VERTEXARRAY NUMVERTS %u\n", f->point_count);
+    add_vectors(out, "COORDS", f->points, f->point_count);
+    add_vectors(out, "NORMALS", s->normals, f->point_count);
     buffer_puts(out, "TEXTURE ");
     add_material(&t->e, out, &t->e.scene->materials.at[s->material]);
     buffer_printf(out, "\nTRIMESH %zu\n", f->solid);
     for (size_t i = 0; i < f->n; i++) {
-        const uint32_t *v = f->at[i].vertex;
+        struct triangle_corners c = export_corners(f, i);
         if (!vec3_is_zero(f->at[i].normal))
-            buffer_printf(out, "%u %u %u\n", v[0] - f->first_vertex, v[1] - f->first_vertex,
-                          v[2] - f->first_vertex);
+            buffer_printf(out, "%u %u %u\n", c.at[0], c.at[1], c.at[2]);
     }
     buffer_puts(out, "END_VERTEXARRAY\n");
 }
 
-static void add_flat(struct buffer *out, const struct vec3 *vertices, const struct facets *f,
-                     uint32_t material)
+static void add_corners(struct buffer *out, const char letter, const struct vec3 *v,
+                        struct triangle_corners c)
+{
+    for (int i = 0; i < 3; i++) {
+        buffer_printf(out, " %c%d ", letter, i);
+        export_vec3(out, v[c.at[i]], " ");
+    }
+}
+
+/* Flat, or each face with normals of its own. */
+static void add_triangles(struct buffer *out, const struct surface *s, const struct facets *f,
+                          uint32_t material)
 {
     for (size_t i = 0; i < f->n; i++) {
-        const uint32_t *v = f->at[i].vertex;
         if (vec3_is_zero(f->at[i].normal))
             continue;
-        buffer_puts(out, "TRI");
-        add_vector(out, "V0", vertices[v[0]]);
-        add_vector(out, "V1", vertices[v[1]]);
-        add_vector(out, "V2", vertices[v[2]]);
+        buffer_puts(out, s->normals ? "STRI" : "TRI");
+        add_corners(out, 'V', f->points, export_corners(f, i));
+        if (s->normals)
+            add_corners(out, 'N', s->normals, export_normal_corners(f, s, i));
         buffer_printf(out, " M%u\n", material);
     }
 }
@@ -215,16 +239,17 @@ static void add_surface(struct tachyon *t, const struct surface *s)
     if (round)
         return;
     struct facets f = export_facets(scene, s);
-    if (s->normals)
-        add_smooth(t, s, &f);
+    if (s->normals && !s->normal_corners)
+        add_array(t, s, &f);
     else
-        add_flat(out, scene->geometry.vertices.at, &f, material);
+        add_triangles(out, s, &f, material);
 }
 
-void export_tachyon(const struct scene *scene, struct buffer *out, struct diag *diag)
+void export_tachyon(const struct scene *scene, const char *path, struct buffer *out,
+                    struct diag *diag)
 {
     struct tachyon t = {0};
-    export_begin(&t.e, scene, out, diag);
+    export_begin(&t.e, scene, path, out, diag);
     buffer_printf(out,
                   "# made by wrt: tachyon FILE -shade_phong -format PNG -o FILE.png\n"
                   "BEGIN_SCENE\nRESOLUTION %u %u\n",

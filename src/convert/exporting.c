@@ -21,10 +21,10 @@ static void sum_lights(struct exporting *e)
     }
 }
 
-void export_begin(struct exporting *e, const struct scene *scene, struct buffer *out,
-                  struct diag *diag)
+void export_begin(struct exporting *e, const struct scene *scene, const char *path,
+                  struct buffer *out, struct diag *diag)
 {
-    *e = (struct exporting){.scene = scene, .out = out, .diag = diag};
+    *e = (struct exporting){.scene = scene, .path = path, .out = out, .diag = diag};
     sum_lights(e);
 }
 
@@ -46,13 +46,14 @@ void export_end(struct exporting *e)
     }
 }
 
+/* Adding 0 takes the sign off zeros, which directions often have. */
 void export_vec3(struct buffer *out, struct vec3 v, const char *between)
 {
-    buffer_number(out, v.x);
+    buffer_number(out, v.x + 0.0);
     buffer_puts(out, between);
-    buffer_number(out, v.y);
+    buffer_number(out, v.y + 0.0);
     buffer_puts(out, between);
-    buffer_number(out, v.z);
+    buffer_number(out, v.z + 0.0);
 }
 
 double vec3_mean(struct vec3 v)
@@ -71,6 +72,25 @@ bool export_is_tint(struct vec3 colour, struct vec3 base)
     return vec3_largest(vec3_mad(colour, -share, base)) <= 1e-9 * vec3_largest(colour);
 }
 
+static uint32_t highest(struct triangle_corners c)
+{
+    uint32_t most = c.at[0] > c.at[1] ? c.at[0] : c.at[1];
+    return most > c.at[2] ? most : c.at[2];
+}
+
+struct triangle_corners export_corners(const struct facets *f, size_t face)
+{
+    const uint32_t *v = f->at[face].vertex;
+    return (struct triangle_corners){
+        {v[0] - f->first_vertex, v[1] - f->first_vertex, v[2] - f->first_vertex}};
+}
+
+struct triangle_corners export_normal_corners(const struct facets *f, const struct surface *s,
+                                              size_t face)
+{
+    return s->normal_corners ? s->normal_corners[face] : export_corners(f, face);
+}
+
 struct facets export_facets(const struct scene *scene, const struct surface *s)
 {
     const struct geometry *g = &scene->geometry;
@@ -78,12 +98,13 @@ struct facets export_facets(const struct scene *scene, const struct surface *s)
     if (!f.n)
         return f;
     f.at = &g->triangles.at[g->prims.at[s->first_prim].index];
+    f.points = &g->vertices.at[f.first_vertex];
     for (size_t i = 0; i < f.n; i++) {
+        uint32_t points = highest(export_corners(&f, i)) + 1;
+        uint32_t normals = s->normals ? highest(export_normal_corners(&f, s, i)) + 1 : 0;
         f.solid += !vec3_is_zero(f.at[i].normal);
-        for (int k = 0; k < 3; k++) {
-            uint32_t v = f.at[i].vertex[k] - f.first_vertex;
-            f.vertices = v >= f.vertices ? v + 1 : f.vertices;
-        }
+        f.point_count = points > f.point_count ? points : f.point_count;
+        f.normal_count = normals > f.normal_count ? normals : f.normal_count;
     }
     return f;
 }

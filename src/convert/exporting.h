@@ -9,7 +9,7 @@
 /* What a format cannot say, in the words of its note. */
 #define LOSSES(X)                                                                          \
     X(NORMAL_MAP, "normal maps are left out")                                              \
-    X(TEXTURE, "textures are left out: surfaces have their plain colour")                  \
+    X(TEXTURE, "textures are left out: surfaces have their mean colour")                   \
     X(CYLINDER_UV, "the scale of textures around cylinders is left out")                   \
     X(HIGHLIGHT, "coloured highlights become white ones of the same mean")                 \
     X(REFLECTION, "coloured reflection becomes uncoloured of the same mean")               \
@@ -31,6 +31,7 @@ enum loss {
 
 struct exporting {
     const struct scene *scene;
+    const char *path; /* where the file will be */
     struct buffer *out;
     struct diag *diag;
     struct vec3 light; /* sum of all lights' intensities: what classic scales reflections by */
@@ -41,8 +42,8 @@ struct exporting {
     } losses[LOSS_COUNT];
 };
 
-void export_begin(struct exporting *e, const struct scene *scene, struct buffer *out,
-                  struct diag *diag);
+void export_begin(struct exporting *e, const struct scene *scene, const char *path,
+                  struct buffer *out, struct diag *diag);
 /* Reports what was left out. */
 void export_end(struct exporting *e);
 void export_lose(struct exporting *e, enum loss loss, struct span span);
@@ -59,9 +60,16 @@ bool export_is_tint(struct vec3 colour, struct vec3 base);
 struct facets {
     const struct triangle *at;
     size_t n, solid; /* all, and those that have an area: the others are never hit */
-    uint32_t first_vertex, vertices;
+    const struct vec3 *points;
+    uint32_t point_count;
+    uint32_t first_vertex; /* the number of points[0] in the geometry */
+    uint32_t normal_count; /* 0: flat */
 };
 struct facets export_facets(const struct scene *scene, const struct surface *s);
+/* The numbers of a face's points, and of its normals. */
+struct triangle_corners export_corners(const struct facets *f, size_t face);
+struct triangle_corners export_normal_corners(const struct facets *f, const struct surface *s,
+                                              size_t face);
 
 /* The cylinders or the sphere of a surface. */
 const struct cylinder *export_cylinder(const struct scene *scene, uint32_t prim);

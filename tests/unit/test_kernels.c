@@ -153,7 +153,7 @@ START_TEST(texels_are_those_of_single_places)
         else
             image->data16[i] = (uint16_t)(9973 * i);
     }
-    struct texture texture = {image, !(run & 2)};
+    struct texture texture = {.image = image, .linear = !(run & 2)};
     double u[BATCH_ROOM] = {0}, v[BATCH_ROOM] = {0};
     uint32_t n = run & 4 ? 13 : BATCH;
     struct vec3_batch expected, texels;

@@ -92,7 +92,7 @@ static void add_texture(struct scene *s)
     for (int i = 0; i < 192; i++)
         image->data8[i] = (uint8_t)(i * i * 37);
     vec_push(&s->images, image);
-    vec_push(&s->textures, (struct texture){image, true});
+    vec_push(&s->textures, (struct texture){.image = image, .linear = true});
 }
 
 enum { MATT, SHINY, MIRROR, GLASS, GLOW, PATTERN, METAL };

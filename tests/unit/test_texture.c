@@ -48,7 +48,7 @@ START_TEST(texels_are_fetched)
 {
     const struct fetch *f = &fetches[_i];
     struct image *image = numbered(4, 2);
-    struct texture t = {image, false};
+    struct texture t = {.image = image, .linear = false};
     ck_assert_double_eq_tol(texture_fetch(&t, f->u, f->v).x * 255, f->nearest, 1e-12);
     t.linear = true;
     ck_assert_double_eq_tol(texture_fetch(&t, f->u, f->v).x * 255, f->linear, 1e-12);
@@ -76,7 +76,7 @@ START_TEST(any_coordinate_will_do)
                                  NAN};
     enum { N = sizeof odd / sizeof *odd };
     struct image *image = numbered(3, 5);
-    struct texture t = {image, true};
+    struct texture t = {.image = image, .linear = true};
     for (int i = 0; i < N * N; i++) {
         struct vec3 c = texture_fetch(&t, odd[i % N], odd[i / N]);
         ck_assert(c.x >= 0 && c.x <= 1);
@@ -89,7 +89,7 @@ START_TEST(sixteen_bits_keep_their_precision)
 {
     uint16_t data[6] = {257, 0, 65535, 1, 2, 3};
     struct image image = {.width = 2, .height = 1, .data16 = data};
-    struct texture t = {&image, false};
+    struct texture t = {.image = &image, .linear = false};
     ck_assert(texture_fetch(&t, 0, 0).x == 257 / 65535.0);
     ck_assert(texture_fetch(&t, 0, 0).z == 1);
     ck_assert(texture_fetch(&t, 0.5, 0).y == 2 / 65535.0);

@@ -14,6 +14,7 @@ int main(void)
     srunner_add_suite(runner, syntax_suite());
     srunner_add_suite(runner, eval_suite());
     srunner_add_suite(runner, lower_suite());
+    srunner_add_suite(runner, export_suite());
     srunner_add_suite(runner, image_suite());
     srunner_add_suite(runner, formats_suite());
     srunner_add_suite(runner, mesh_suite());
