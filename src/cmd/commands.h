@@ -8,6 +8,7 @@ int command_render(const struct options *o);
 int command_check(const struct options *o);
 int command_fmt(const struct options *o);
 int command_uv(const struct options *o);
+int command_convert(const struct options *o);
 int command_doc(const struct options *o);
 
 #endif

@@ -30,6 +30,8 @@ static const struct command {
      "parse and validate scenes; opens no texture or mesh"},
     {"fmt", FOR_FMT, command_fmt, "fmt SCENE... [options]",
      "print scenes in canonical layout, or bring them into it"},
+    {"convert", FOR_CONVERT, command_convert, "convert SCENE -o FILE",
+     "write a scene for another program"},
     {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
      "make a UV list of a VRML 2.0 file's texture coordinates"},
     {"doc", FOR_DOC, command_doc, "doc [KIND[.PROPERTY]]",

@@ -208,6 +208,9 @@ static bool take(enum opt o, const char *argument, struct options *out)
     case OPT_OUTPUT:
         out->output = text;
         return true;
+    case OPT_TO:
+        out->to = text;
+        return true;
     case OPT_SAMPLES:
         return take_u32(o, text, 1, SAMPLES_LIMIT, &out->grid);
     case OPT_THREADS:

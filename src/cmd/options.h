@@ -16,11 +16,12 @@ enum {
     FOR_UV = 4,
     FOR_DOC = 8,
     FOR_FMT = 16,
-    FOR_ALL = 31
+    FOR_CONVERT = 64,
+    FOR_ALL = 127
 };
 
 /* Those that read a scene, and those that report on what they read. */
-enum { FOR_SCENES = FOR_RENDER | FOR_CHECK, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
+enum { FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_CONVERT, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
@@ -28,6 +29,7 @@ struct options {
     VEC(const char *) scenes;  /* or whatever else the command takes */
     VEC(const char *) defines; /* NAME=VALUE */
     const char *output;        /* or NULL */
+    const char *to;            /* the format of the output, or NULL */
     uint32_t width, height;    /* 0: the scene's */
     bool cropped;
     uint32_t crop[4];
