@@ -224,7 +224,8 @@ int command_doc(const struct options *o)
         status = answer(&out, &q);
     else
         add_overview(&out);
-    fwrite(out.at, 1, out.n, stdout);
+    if (out.n)
+        fwrite(out.at, 1, out.n, stdout);
     buffer_free(&words);
     buffer_free(&out);
     return status;
