@@ -154,6 +154,9 @@ statement:
     { $$ = parser_block(p, AST_BLOCK, @$, $NAME, @NAME, (struct str){0}, $block); }
 | NAME[kind] NAME[label] block
     { $$ = parser_block(p, AST_BLOCK, @$, $kind, @kind, $label, $block); }
+| NAME[kind] NAME[word] NAME[label] block
+    { $$ = parser_block(p, AST_BLOCK, @$, $kind, @kind, $word,
+                        ast_concat(ast_append((struct ast_list){0}, ast_named(p->ast, AST_LABEL, @label, $label, @label)), $block)); }
 ;
 
 if:

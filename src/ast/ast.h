@@ -40,6 +40,7 @@ enum ast_kind {
 
     /* Parts of statements and values. */
     AST_BODY,      /* { ... }                  children: members */
+    AST_LABEL,     /* lamp                     name; first child of `light point lamp { ... }` */
     AST_PARAMETER, /* a, b = 1                 name; children: the default, if there is one */
     AST_ARGUMENT,  /* b = 1                    name; children: the value; one without a name is */
                    /*                          the value itself */
@@ -65,6 +66,7 @@ enum ast_kind {
     AST_CONDITIONAL,   /* c ? a : b            children: c, a, b */
     AST_PARENTHESES,   /* (v)                  children: v */
     AST_TEXT,          /* XML character data   text: entities undone; exact: spelt like that */
+    AST_KINDS
 };
 
 enum ast_unit { AST_DEGREES, AST_RADIANS };

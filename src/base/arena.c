@@ -15,6 +15,7 @@ enum { BLOCK_BYTES = 64 * 1024, ALIGNMENT = _Alignof(max_align_t) };
 
 struct arena_block {
     struct arena_block *next;
+    char *end;
     max_align_t data[];
 };
 
@@ -27,7 +28,7 @@ static void add_block(struct arena *a, size_t n)
     b->next = a->blocks;
     a->blocks = b;
     a->at = (char *)b->data;
-    a->end = a->at + room;
+    a->end = b->end = a->at + room;
 }
 
 void *arena_alloc(struct arena *a, size_t n)
@@ -73,6 +74,23 @@ char *arena_printf(struct arena *a, const char *format, ...)
     vsnprintf(p, (size_t)(n < 0 ? 0 : n) + 1, format, again);
     va_end(again);
     return p;
+}
+
+struct arena_mark arena_mark(const struct arena *a)
+{
+    return (struct arena_mark){a->blocks, a->at, a->bytes};
+}
+
+void arena_release(struct arena *a, struct arena_mark m)
+{
+    while (a->blocks != m.block) {
+        struct arena_block *next = a->blocks->next;
+        free(a->blocks);
+        a->blocks = next;
+    }
+    a->at = m.at;
+    a->end = m.block ? m.block->end : NULL;
+    a->bytes = m.bytes;
 }
 
 void arena_free(struct arena *a)

@@ -10,7 +10,7 @@ struct arena_block;
 struct arena {
     struct arena_block *blocks; /* newest first */
     char *at, *end;             /* the free rest of the newest block */
-    size_t bytes;               /* handed out so far */
+    size_t bytes;               /* handed out and not released */
 };
 
 /* n bytes aligned for any type, not zeroed; never NULL (see mem.h). */
@@ -24,6 +24,15 @@ char *arena_copy(struct arena *a, const char *p, size_t n);
 
 /* printf into the arena. */
 char *arena_printf(struct arena *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A place to go back to: arena_release frees what was handed out since. */
+struct arena_mark {
+    struct arena_block *block;
+    char *at;
+    size_t bytes;
+};
+struct arena_mark arena_mark(const struct arena *a);
+void arena_release(struct arena *a, struct arena_mark m);
 
 void arena_free(struct arena *a);
 

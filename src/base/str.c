@@ -33,6 +33,18 @@ struct str str_trim(struct str s)
     return s;
 }
 
+struct str str_nth_word(const char *list, unsigned n)
+{
+    for (;;) {
+        size_t length = strcspn(list, " ");
+        if (n-- == 0)
+            return (struct str){list, length};
+        if (!list[length])
+            return (struct str){0};
+        list += length + 1;
+    }
+}
+
 static unsigned least(unsigned a, unsigned b)
 {
     return a < b ? a : b;

@@ -41,6 +41,9 @@ bool str_equal_nocase(struct str a, struct str b);
 /* Without leading and trailing space, tab, newline, carriage return. */
 struct str str_trim(struct str s);
 
+/* The n-th of the words in a list with a space between them; empty behind the last. */
+struct str str_nth_word(const char *list, unsigned n);
+
 /* Edits (insert, delete, replace, swap neighbours) that make a into b, ignoring ASCII case: the
  * optimal string alignment distance.  Names longer than 63 bytes count as far away. */
 unsigned str_distance(struct str a, struct str b);

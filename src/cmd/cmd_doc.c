@@ -38,7 +38,8 @@ static enum schema_prop_id find_prop(enum schema_kind kind, struct str name)
 
 static void add_group(struct buffer *out, enum schema_group group)
 {
-    buffer_printf(out, "%ss:\n", schema_group_name(group));
+    const char *name = schema_group_name(group);
+    buffer_printf(out, "%s%s:\n", name, name[strlen(name) - 1] == 's' ? "" : "s");
     for (int k = 0; k < SCHEMA_KINDS; k++)
         if (schema_kinds[k].group == group)
             buffer_printf(out, "  %-14s %s\n", schema_kinds[k].native, schema_kinds[k].doc);
@@ -59,8 +60,9 @@ static void add_line(struct buffer *out, enum schema_prop_id id)
     const struct schema_prop *p = &schema_props[id];
     buffer_printf(out, "  %-14s ", p->native);
     describe_value(out, id, false);
-    if (p->required)
-        buffer_puts(out, ", required");
+    if (p->required || p->models != IN_BOTH)
+        buffer_puts(out, ", ");
+    describe_conditions(out, id);
     if (p->has_default) {
         buffer_puts(out, " = ");
         describe_default(out, id);
@@ -88,8 +90,15 @@ static void add_property(struct buffer *out, enum schema_kind kind, enum schema_
         describe_default(out, id);
     else
         buffer_puts(out, p->required ? "none: it must be given" : "none");
+    if (p->has_default && p->required)
+        buffer_puts(out, "; otherwise it must be given");
+    if (p->models != IN_BOTH)
+        buffer_printf(out, "\n  model    %s only", p->models == IN_MODERN ? "modern" : "classic");
     buffer_puts(out, "\n  in XML   ");
-    describe_leaves(out, id);
+    if (*p->xml)
+        describe_leaves(out, id);
+    else
+        buffer_puts(out, "none");
     if (p->type == TYPE_WORD) {
         buffer_puts(out, ", ");
         describe_value(out, id, true);

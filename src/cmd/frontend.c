@@ -23,46 +23,16 @@ void frontend_init(struct frontend *f)
     diag_init(&f->diag, &f->sources);
 }
 
-static const struct source *add_source(struct frontend *f, const char *path, char *text, size_t n)
-{
-    const struct source *s = srcmap_add(&f->sources, display_name(path), text, n);
-    if (!s)
-        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "'%s' is too large",
-                    display_name(path));
-    return s;
-}
-
-static bool read_bytes(struct frontend *f, const char *path, char **text, size_t *n)
-{
-    const char *reason = file_read(path, text, n);
-    if (reason)
-        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
-                    display_name(path), reason);
-    return !reason;
-}
-
 const struct source *frontend_read(struct frontend *f, const char *path)
 {
     char *text;
     size_t n;
-    return read_bytes(f, path, &text, &n) ? add_source(f, path, text, n) : NULL;
-}
-
-/* The scene's text, made UTF-8, as a source; NULL after reporting. */
-static const struct source *read_scene(struct frontend *f, const char *path)
-{
-    char *text;
-    size_t n;
-    if (!read_bytes(f, path, &text, &n))
-        return NULL;
-    struct encoding_problem problem;
-    bool right = syntax_decode(&text, &n, &problem);
-    const struct source *s = add_source(f, path, text, n);
-    if (right || !s)
-        return s;
-    uint32_t at = s->base + (uint32_t)problem.offset;
-    diag_report(&f->diag, problem.code, (struct span){at, at + 1}, "%s", problem.message);
-    return NULL;
+    const char *reason = file_read(path, &text, &n);
+    const struct source *s = reason ? NULL : srcmap_add(&f->sources, display_name(path), text, n);
+    if (!s)
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
+                    display_name(path), reason ? reason : "it is too large");
+    return s;
 }
 
 /* Each -D as an expression; the text becomes a source of its own. */
@@ -97,7 +67,14 @@ static bool may_evaluate(const struct frontend *f, bool parsed)
 static void evaluate(struct frontend *f, const struct options *o, bool parsed)
 {
     struct eval_define *defines = parse_defines(f, o);
-    struct eval_options options = {defines, o->defines.n, o->max_objects};
+    struct eval_options options = {
+        .defines = defines,
+        .define_count = o->defines.n,
+        .max_objects = o->max_objects,
+        .sources = &f->sources,
+        .folders = o->folders.at,
+        .folder_count = o->folders.n,
+    };
     eval_scene(&f->ast, &options, &f->desc, &f->diag);
     if (parsed || f->desc.camera)
         validate_scene(&f->desc, &f->diag);
@@ -107,7 +84,8 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
 bool frontend_parse(struct frontend *f, const char *path)
 {
     frontend_init(f);
-    const struct source *s = read_scene(f, path);
+    const struct source *s =
+        syntax_load(&f->sources, path, DIAG_CANNOT_READ, (struct span){0}, &f->diag);
     return s && syntax_parse(s, &f->ast, &f->diag);
 }
 

@@ -236,6 +236,9 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return take_isa(text, out);
     case OPT_DEFINE:
         return take_define(text, out);
+    case OPT_INCLUDE:
+        vec_push(&out->folders, text);
+        return true;
     case OPT_STATS:
         return take_stats(argument, out);
     case OPT_FORMAT:
@@ -398,6 +401,7 @@ void options_free(struct options *o)
 {
     vec_free(&o->scenes);
     vec_free(&o->defines);
+    vec_free(&o->folders);
 }
 
 void options_help(unsigned command, FILE *out)

@@ -28,6 +28,7 @@ enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 struct options {
     VEC(const char *) scenes;  /* or whatever else the command takes */
     VEC(const char *) defines; /* NAME=VALUE */
+    VEC(const char *) folders; /* of includes */
     const char *output;        /* or NULL */
     const char *to;            /* the format of the output, or NULL */
     uint32_t width, height;    /* 0: the scene's */

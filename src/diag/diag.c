@@ -97,9 +97,11 @@ static void count(struct diag *d, const struct diag_rule *rule)
         d->exit = rule->exit;
 }
 
-/* Code and place as a key; they have no padding. */
+/* Code, place and way to it as a key; they have no padding. */
 struct key {
-    uint32_t code, begin, end;
+    uint64_t sites;
+    struct span span;
+    uint64_t code;
 };
 
 static struct str key_text(const struct key *k)
@@ -133,7 +135,7 @@ static void remember_frame(struct diag *d, struct diag_entry *e, const struct ke
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...)
 {
-    const struct key key = {(uint32_t)code, span.begin, span.end};
+    const struct key key = {diag_frame_sites(d->frame), span, code};
     count(d, &diag_rules[code]);
     struct diag_entry *e = find_repeated(d, &key);
     if (e)

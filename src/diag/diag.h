@@ -54,7 +54,8 @@ enum diag_frame_kind {
     DIAG_FRAME_INCLUDE, /* at: the path as written */
     DIAG_FRAME_CALL,    /* at: the function's name in the call */
     DIAG_FRAME_USE,     /* at: the template's name in its use */
-    DIAG_FRAME_ROUND,   /* at: the variable of the loop */
+    DIAG_FRAME_ROUND,   /* at: the variable of the loop, which is a number */
+    DIAG_FRAME_ITEM,    /* at: the variable of the loop, which is something else */
 };
 
 struct diag_frame {
@@ -87,7 +88,7 @@ struct diag {
     struct arena arena;
     const struct diag_frame *frame; /* borrowed: set by whoever evaluates, kept in words */
     VEC(struct diag_entry *) entries;
-    struct map framed; /* place and code to the first entry found there inside a frame */
+    struct map framed; /* code, place and way to it to the first entry found there inside a frame */
     size_t dropped;
     size_t errors, warnings; /* all, dropped ones too */
     enum diag_exit exit;     /* what the errors so far ask for: INPUT wins over RESOURCE */
@@ -99,7 +100,7 @@ void diag_free(struct diag *d);
 
 /* Reports; the entry returned is valid until diag_free and takes labels, notes and fix-its.  An
  * unknown span ({0, 0}) means no place in a text.  Inside a frame the same finding at the same
- * place is kept once and counted. */
+ * place, whatever the rounds of the loops around, is kept once and counted. */
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...) __attribute__((format(printf, 4, 5)));
 
@@ -115,7 +116,9 @@ static inline bool diag_full(const struct diag *d)
     return d->dropped > 0;
 }
 
-/* Tells the frames in words (used by diag_report). */
+/* A number for the places of the frames, whatever their order and rounds (used by diag_report). */
+uint64_t diag_frame_sites(const struct diag_frame *innermost);
+/* Tells the frames in words (likewise). */
 void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost);
 
 /* Adds the note "did you mean 'x'?" and a fix-it when `meant` is not empty. */

@@ -18,12 +18,34 @@ static const char *words_of(struct diag *d, const struct diag_frame *f)
         return arena_printf(&d->arena, "in %.*s(...) called", STR_ARG(name));
     case DIAG_FRAME_USE:
         return arena_printf(&d->arena, "in %.*s(...) used", STR_ARG(name));
+    case DIAG_FRAME_ITEM:
+        return arena_printf(&d->arena, "in 'for' with item %.0f as %.*s", f->number, STR_ARG(name));
     case DIAG_FRAME_ROUND:
         break;
     }
     char number[NUM_PRINT_BYTES];
     num_print(f->number, number);
     return arena_printf(&d->arena, "in 'for' with %.*s = %s", STR_ARG(name), number);
+}
+
+/* Mistakes found by two ways are two, but not the many ways through a recursion, which differ only
+ * in how often they pass the same places. */
+uint64_t diag_frame_sites(const struct diag_frame *innermost)
+{
+    enum { MOST = 64 };
+    uint32_t seen[MOST];
+    uint64_t sum = 0;
+    int n = 0;
+    for (const struct diag_frame *f = innermost; f && n < MOST; f = f->parent) {
+        int i = 0;
+        while (i < n && seen[i] != f->at.begin)
+            i++;
+        if (i < n)
+            continue;
+        seen[n++] = f->at.begin;
+        sum += f->at.begin * UINT64_C(0x9e3779b97f4a7c15) ^ (uint64_t)f->at.begin << 32;
+    }
+    return sum;
 }
 
 static void add(struct diag_entry *e, struct span at, const char *text)

@@ -19,10 +19,15 @@ static void copy_numbers(const struct value *v, struct desc_value *out)
         out->number[i] = (uint32_t)i < v->n ? v->number[i] : 0;
 }
 
+static bool is_plain(const struct value *v)
+{
+    return value_is_numeric(v) && !v->angles;
+}
+
 static bool as_number(const struct target *t, const struct value *v)
 {
     copy_numbers(v, t->out);
-    return v->type == VALUE_NUMBER;
+    return v->type == VALUE_NUMBER && !v->angles;
 }
 
 static bool as_integer(const struct target *t, const struct value *v)
@@ -33,7 +38,7 @@ static bool as_integer(const struct target *t, const struct value *v)
 static bool as_angle(const struct target *t, const struct value *v)
 {
     copy_numbers(v, t->out);
-    return v->type == VALUE_NUMBER || v->type == VALUE_ANGLE;
+    return v->type == VALUE_NUMBER;
 }
 
 static bool as_number_or_switch(const struct target *t, const struct value *v)
@@ -50,30 +55,56 @@ static bool as_switch(const struct target *t, const struct value *v)
     return as_number_or_switch(t, v) && (t->out->number[0] == 0 || t->out->number[0] == 1);
 }
 
+/* A number stands for all three. */
 static bool as_vector(const struct target *t, const struct value *v)
 {
     copy_numbers(v, t->out);
-    if (v->type == VALUE_NUMBER) /* the same three times */
+    if (v->n == 1)
         t->out->number[1] = t->out->number[2] = v->number[0];
-    return v->type == VALUE_NUMBER || (v->type == VALUE_VECTOR && v->n == 3);
+    return is_plain(v) && v->n != 2;
 }
 
 static bool as_vector_or_pair(const struct target *t, const struct value *v)
 {
-    copy_numbers(v, t->out);
-    return v->type == VALUE_VECTOR || as_vector(t, v);
+    as_vector(t, v);
+    return is_plain(v);
 }
 
-static bool as_colour(const struct target *t, const struct value *v)
+/* Numbers are degrees; a single one would not say about which axis. */
+static bool as_rotation(const struct target *t, const struct value *v)
 {
     copy_numbers(v, t->out);
-    return v->type == VALUE_COLOUR || as_vector(t, v);
+    return (v->type == VALUE_VECTOR && v->n == 3) || (v->type == VALUE_NUMBER && v->number[0] == 0);
+}
+
+static bool as_matrix(const struct target *t, const struct value *v)
+{
+    enum { NUMBERS = 12 };
+    if (v->type != VALUE_LIST)
+        return false;
+    if (v->n != NUMBERS) {
+        diag_report(t->e->diag, DIAG_WRONG_COUNT, v->span, "'%s' takes %d numbers, but found %u",
+                    t->prop->native, NUMBERS, v->n);
+        return false;
+    }
+    struct affine *m = arena_alloc(&t->e->out->arena, sizeof *m);
+    for (uint32_t i = 0; i < NUMBERS; i++) {
+        struct value item = value_item(v, i);
+        if (item.type != VALUE_NUMBER || item.angles) {
+            diag_report(t->e->diag, DIAG_WRONG_TYPE, item.span,
+                        "a matrix is made of numbers, but this is %s", value_type_name(&item));
+            return false;
+        }
+        m->m[i / 4][i % 4] = item.number[0];
+    }
+    t->out->matrix = m;
+    return true;
 }
 
 static bool as_size(const struct target *t, const struct value *v)
 {
     copy_numbers(v, t->out);
-    return v->type == VALUE_VECTOR && v->n == 2 && v->number[0] == floor(v->number[0]) &&
+    return is_plain(v) && v->n == 2 && v->number[0] == floor(v->number[0]) &&
            v->number[1] == floor(v->number[1]);
 }
 
@@ -91,14 +122,13 @@ static bool as_points(const struct target *t, const struct value *v)
     t->out->points = arena_zalloc(&t->e->out->arena, want, sizeof *t->out->points);
     t->out->n = want;
     for (unsigned i = 0; i < want; i++) {
-        const struct value *item = &v->items[i];
-        if (item->type != VALUE_VECTOR) {
-            diag_report(t->e->diag, DIAG_WRONG_TYPE, item->span,
-                        "a point is two or three numbers, but this is %s", value_type_name(item));
+        struct value item = value_item(v, i);
+        if (item.type != VALUE_VECTOR || item.angles) {
+            diag_report(t->e->diag, DIAG_WRONG_TYPE, item.span,
+                        "a point is two or three numbers, but this is %s", value_type_name(&item));
             return false;
         }
-        t->out->points[i] =
-            vec3(item->number[0], item->number[1], item->n == 3 ? item->number[2] : 0);
+        t->out->points[i] = vec3(item.number[0], item.number[1], item.n == 3 ? item.number[2] : 0);
     }
     return true;
 }
@@ -114,8 +144,9 @@ static bool as_file(const struct target *t, const struct value *v)
 {
     if (v->type != VALUE_STRING)
         return false;
-    t->out->string = v->string;
-    t->out->spelt = v->span.begin;
+    const char *kept = arena_copy(&t->e->out->arena, v->string.at, v->string.n);
+    t->out->string = (struct str){kept, v->string.n};
+    t->out->spelt = v->spelt ? v->spelt : v->span.begin;
     if (!v->string.n)
         diag_report(t->e->diag, DIAG_WRONG_TYPE, v->span,
                     "'%s' takes a file name, but this is empty", t->prop->native);
@@ -153,7 +184,9 @@ static converter *const converters[SCHEMA_TYPES] = {
     [TYPE_VECTOR] = as_vector,
     [TYPE_VECTOR_OR_PAIR] = as_vector_or_pair,
     [TYPE_SCALE] = as_vector,
-    [TYPE_COLOUR] = as_colour,
+    [TYPE_COLOUR] = as_vector,
+    [TYPE_ROTATION] = as_rotation,
+    [TYPE_MATRIX] = as_matrix,
     [TYPE_SIZE] = as_size,
     [TYPE_POINTS] = as_points,
     [TYPE_WORD] = as_word,
@@ -170,8 +203,12 @@ static void report_misfit(struct eval *e, enum schema_prop_id id, const struct v
         report_unknown_word(e, id, v->string, v->span, false);
         return;
     }
-    diag_report(e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s, but this is %s", p->native,
-                schema_type_name(p->type), value_type_name(v));
+    if (p->type == TYPE_INTEGER && v->type == VALUE_NUMBER && !v->angles)
+        diag_report(e->diag, DIAG_WRONG_TYPE, v->span,
+                    "'%s' takes a whole number, but this is %.17g", p->native, v->number[0]);
+    else
+        diag_report(e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s, but this is %s", p->native,
+                    schema_type_name(p->type), value_type_name(v));
 }
 
 bool value_convert(struct eval *e, enum schema_prop_id id, const struct value *v,
@@ -179,7 +216,7 @@ bool value_convert(struct eval *e, enum schema_prop_id id, const struct value *v
 {
     if (v->type == VALUE_ERROR)
         return false;
-    for (uint32_t i = 0; v->type == VALUE_LIST && i < v->n; i++)
+    for (uint32_t i = 0; v->type == VALUE_LIST && v->items && i < v->n; i++)
         if (v->items[i].type == VALUE_ERROR)
             return false;
     size_t errors = e->diag->errors;

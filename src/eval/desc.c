@@ -13,6 +13,12 @@ void desc_free(struct desc *d)
     vec_free(&d->materials);
     vec_free(&d->lights);
     vec_free(&d->surfaces);
+    vec_free(&d->defaults);
+    for (size_t i = 0; i < d->included.n; i++) {
+        ast_free(d->included.at[i]);
+        free(d->included.at[i]);
+    }
+    vec_free(&d->included);
     arena_free(&d->arena);
 }
 
@@ -33,18 +39,18 @@ const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_
 struct vec3 desc_vector(const struct desc_object *o, enum schema_prop_id id)
 {
     const struct desc_value *v = desc_get(o, id);
-    const double *x = v ? v->number : schema_props[id].value;
+    const double *x = v ? v->number : schema_props[id].value[o->model];
     return vec3(x[0], x[1], x[2]);
 }
 
 double desc_number(const struct desc_object *o, enum schema_prop_id id)
 {
     const struct desc_value *v = desc_get(o, id);
-    return v ? v->number[0] : schema_props[id].value[0];
+    return v ? v->number[0] : schema_props[id].value[o->model][0];
 }
 
 unsigned desc_word(const struct desc_object *o, enum schema_prop_id id)
 {
     const struct desc_value *v = desc_get(o, id);
-    return v ? v->word : (unsigned)schema_props[id].value[0];
+    return v ? v->word : (unsigned)schema_props[id].value[o->model][0];
 }

@@ -3,6 +3,7 @@
 #ifndef WRT_EVAL_DESC_H
 #define WRT_EVAL_DESC_H
 
+#include "ast/ast.h"
 #include "base/arena.h"
 #include "base/vec.h"
 #include "diag/diag.h"
@@ -19,11 +20,12 @@ struct desc_value {
             struct str string;
             uint32_t spelt; /* a place in the text that spells it: relative paths start there */
         };
-        unsigned word;              /* TYPE_WORD: its number */
-        struct desc_object *object; /* TYPE_MATERIAL, TYPE_TEXTURE, TYPE_SURFACE */
-        struct {                    /* TYPE_SIZE */
-            double size[2];         /* as number */
-            struct span second;     /* XML: of the second leaf */
+        const struct affine *matrix; /* TYPE_MATRIX */
+        unsigned word;               /* TYPE_WORD: its number */
+        struct desc_object *object;  /* TYPE_MATERIAL, TYPE_TEXTURE, TYPE_SURFACE */
+        struct {                     /* TYPE_SIZE */
+            double size[2];          /* as number */
+            struct span second;      /* XML: of the second leaf */
         };
     };
 };
@@ -47,20 +49,22 @@ struct desc_object {
     struct desc_prop *props;
     const struct affine *place;     /* surfaces, lights: of the groups around it; NULL: identity */
     const struct diag_frame *frame; /* how evaluation came to it; NULL: straight */
+    uint8_t model;                  /* enum schema_model: of its scene */
     bool xml;                       /* spelt in XML: messages use its names */
     bool broken;                    /* an error was reported inside, so absences mean nothing */
 };
 
-enum desc_model { MODEL_CLASSIC, MODEL_MODERN };
-
 struct desc {
     struct arena arena;
-    enum desc_model model;
+    enum schema_model model;
+    struct span model_span; /* its name, or the scene's start */
     bool xml;
     bool incomplete;   /* something at the top was not understood, so absences mean nothing */
     struct span start; /* the scene's first bytes, for what is missing altogether */
-    struct desc_object *camera; /* or NULL */
+    struct desc_object *camera, *settings; /* or NULL */
     VEC(struct desc_object *) textures, materials, lights, surfaces;
+    VEC(struct desc_object *) defaults; /* what `default` gave: only to be validated */
+    VEC(struct ast *) included;         /* trees of the files included; texts point into them */
 };
 
 void desc_free(struct desc *d);
@@ -71,7 +75,7 @@ const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_
 /* The property's value, or NULL when it is not given. */
 const struct desc_value *desc_get(const struct desc_object *o, enum schema_prop_id id);
 
-/* The property's numbers, or else the schema's default (which it must have). */
+/* The property's numbers, or else the default in the object's model (which it must have). */
 struct vec3 desc_vector(const struct desc_object *o, enum schema_prop_id id);
 double desc_number(const struct desc_object *o, enum schema_prop_id id);
 unsigned desc_word(const struct desc_object *o, enum schema_prop_id id);

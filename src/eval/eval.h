@@ -16,7 +16,10 @@ struct eval_define {
 struct eval_options {
     const struct eval_define *defines;
     size_t define_count;
-    size_t max_objects; /* surfaces and lights */
+    size_t max_objects;     /* surfaces and lights; likewise materials, textures, items of a list */
+    struct srcmap *sources; /* takes the texts of included files */
+    const char *const *folders; /* where includes are looked for after the includer's own folder */
+    size_t folder_count;
 };
 
 /* Evaluates into *out (initialised here; free with desc_free even after errors).  True when there

@@ -80,9 +80,9 @@ static bool read_texture_index(struct eval *e, const struct ast_node *leaf, stru
     double x;
     if (!read_numbers(e, leaf, 1, &x) || !require_whole(e, leaf, x))
         return false;
-    size_t n = e->out->textures.n;
+    size_t n = e->out->textures.n - e->first_texture;
     if (x >= 0 && x < (double)n) {
-        out->object = e->out->textures.at[(size_t)x];
+        out->object = e->out->textures.at[e->first_texture + (size_t)x];
         return true;
     }
     struct diag_entry *entry =
@@ -175,6 +175,8 @@ static bool read_value(struct eval *e, enum schema_prop_id id, unsigned part,
         return read_file(e, leaf, out);
     case TYPE_TEXTURE:
         return read_texture_index(e, leaf, out);
+    case TYPE_ROTATION: /* of groups, which XML lacks */
+    case TYPE_MATRIX:
     case TYPE_MATERIAL:
     case TYPE_SURFACE:
     case SCHEMA_TYPES:
@@ -202,7 +204,8 @@ void eval_leaf(struct eval *e, struct desc_object *o, const struct ast_node *lea
 {
     unsigned part;
     enum schema_prop_id id = object_find_prop(e, o, leaf->name, leaf->name_span, &part);
-    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, part, leaf->name_span) : NULL;
+    struct desc_prop *p =
+        id != SCHEMA_PROPS ? object_prop(e, &e->out->arena, o, id, part, leaf->name_span) : NULL;
     bool right = p && !report_empty(e, id, leaf) && read_value(e, id, part, leaf, &p->value);
     o->broken |= !right;
     if (!p)

@@ -1,25 +1,21 @@
-/* Evaluation of the native language: statements, blocks, names. */
+/* Statements of the native language. */
 #include "config.h"
 
 #include "eval/context.h"
 
-static void bind(struct eval *e, const struct ast_node *node, struct value v)
+/* ---- names ---- */
+
+static void bind_value(struct eval *e, const struct ast_node *node, const struct value *v)
 {
-    struct binding *old = map_get(&e->names, node->name);
-    if (old) {
-        struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_NAME, node->name_span,
-                                               "'%.*s' is defined twice", STR_ARG(node->name));
-        diag_label(entry, old->span, "first defined here");
-        return;
-    }
-    struct binding *b = arena_zalloc(&e->out->arena, 1, sizeof *b);
-    *b = (struct binding){.name = node->name, .span = node->name_span, .value = v};
-    map_set(&e->names, node->name, b);
+    struct binding *b = scope_bind(e, node->name, node->name_span, BINDING_VALUE);
+    if (b)
+        b->value = *v;
 }
 
 static void eval_let(struct eval *e, const struct ast_node *node)
 {
-    bind(e, node, eval_value(e, node->children));
+    struct value v = eval_value(e, node->children);
+    bind_value(e, node, &v);
 }
 
 static void eval_param(struct eval *e, const struct ast_node *node)
@@ -31,12 +27,13 @@ static void eval_param(struct eval *e, const struct ast_node *node)
         v = eval_value(e, e->options->defines[i].value);
         e->define_used[i] = true;
     }
-    bind(e, node, v);
+    bind_value(e, node, &v);
 }
 
 /* `material a = v` and `texture a = v`: a let that says what v is. */
-static void eval_named(struct eval *e, const struct ast_node *node, enum schema_group group)
+static void eval_named(struct eval *e, const struct ast_node *node)
 {
+    enum schema_group group = node->kind == AST_MATERIAL ? SCHEMA_MATERIAL : SCHEMA_TEXTURE;
     struct value v = eval_value(e, node->children);
     bool fits = v.type == VALUE_OBJECT && schema_kinds[v.object->kind].group == group;
     if (v.type != VALUE_ERROR && !fits) {
@@ -46,214 +43,245 @@ static void eval_named(struct eval *e, const struct ast_node *node, enum schema_
     }
     if (fits && !v.object->name.n)
         v.object->name = node->name;
-    bind(e, node, v);
+    bind_value(e, node, &v);
 }
 
-static void eval_model(struct eval *e, const struct ast_node *node)
+static void report_twice(struct eval *e, const struct ast_node *parameter,
+                         const struct ast_node *first)
 {
-    if (str_is(node->name, "classic"))
-        e->out->model = MODEL_CLASSIC;
-    else if (str_is(node->name, "modern"))
-        e->out->model = MODEL_MODERN;
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_DUPLICATE_NAME, parameter->name_span,
+                    "two parameters are called '%.*s'", STR_ARG(parameter->name));
+    diag_label(entry, first->name_span, "the first is here");
+}
+
+/* `fn f(a) = v` and `define d(a) { ... }` */
+static void eval_routine(struct eval *e, const struct ast_node *node)
+{
+    enum binding_kind kind = node->kind == AST_FN ? BINDING_FUNCTION : BINDING_TEMPLATE;
+    uint32_t n = 0;
+    for (const struct ast_node *p = node->children; p->kind == AST_PARAMETER; p = p->next, n++)
+        for (const struct ast_node *q = node->children; q != p; q = q->next)
+            if (str_equal(p->name, q->name))
+                report_twice(e, p, q);
+    struct binding *b = scope_bind(e, node->name, node->name_span, kind);
+    if (!b)
+        return;
+    b->parameters = n;
+    b->node = node;
+    b->home = e->scope;
+}
+
+/* ---- the model ---- */
+
+void eval_model(struct eval *e, struct str name, struct span span)
+{
+    if (str_is(name, "classic"))
+        e->out->model = SCHEMA_CLASSIC;
+    else if (str_is(name, "modern"))
+        e->out->model = SCHEMA_MODERN;
     else {
-        struct diag_entry *entry = diag_report(e->diag, DIAG_MODEL, node->name_span,
-                                               "there is no model '%.*s'", STR_ARG(node->name));
-        struct str_nearest nearest = str_nearest_to(node->name);
+        struct diag_entry *entry =
+            diag_report(e->diag, DIAG_MODEL, span, "there is no model '%.*s'", STR_ARG(name));
+        struct str_nearest nearest = str_nearest_to(name);
         str_nearest_try(&nearest, str_of("classic"));
         str_nearest_try(&nearest, str_of("modern"));
-        diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
-        e->out->model = MODEL_CLASSIC;
+        struct str meant = str_nearest_found(&nearest);
+        diag_did_you_mean(entry, span, meant);
+        diag_note(entry, "there are: classic modern");
+        e->out->model = str_is(meant, "modern") ? SCHEMA_MODERN : SCHEMA_CLASSIC;
+        e->model_unknown = true;
     }
 }
 
-/* The value of a property whose values are words: `shape: sphere`. */
-static bool eval_word(struct eval *e, enum schema_prop_id id, const struct ast_node *node,
-                      struct desc_value *out)
+void eval_same_model(struct eval *e, struct str name, struct span span)
 {
-    int word = schema_find_word(id, node->name, false);
-    if (word >= 0)
-        out->word = (unsigned)word;
-    else
-        report_unknown_word(e, id, node->name, node->span, false);
-    return word >= 0;
+    enum schema_model scene = e->out->model;
+    eval_model(e, name, span);
+    if (e->out->model != scene) {
+        struct diag_entry *entry = diag_report(
+            e->diag, DIAG_MODEL, span, "this file is for the model '%.*s', but the scene is %s",
+            STR_ARG(name), schema_model_name(scene));
+        diag_label(entry, e->out->model_span, "the scene's model");
+    }
+    e->out->model = scene;
 }
 
-static void eval_property(struct eval *e, struct desc_object *o, const struct ast_node *node)
+/* The scene's own was taken before anything else. */
+static void eval_model_statement(struct eval *e, const struct ast_node *node)
 {
-    const struct ast_node *value = node->children;
-    unsigned leaf;
-    enum schema_prop_id id = object_find_prop(e, o, node->name, node->name_span, &leaf);
-    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
-    bool fits = false;
-    if (p && schema_props[id].type == TYPE_WORD && value->kind == AST_NAME &&
-        !map_get(&e->names, value->name)) {
-        fits = eval_word(e, id, value, &p->value);
-    } else {
-        struct value v = eval_value(e, value);
-        fits = p && value_convert(e, id, &v, &p->value);
-    }
-    if (p) {
-        p->value.span = value->span;
-        p->broken = !fits;
-    }
-    o->broken |= !fits;
-}
-
-/* What the base gives and the new object does not say itself. */
-static void inherit(struct eval *e, struct desc_object *o, const struct desc_object *base)
-{
-    for (const struct desc_prop *p = base->props; p; p = p->next) {
-        if (desc_get(o, (enum schema_prop_id)p->id))
-            continue;
-        struct desc_prop *copy = object_prop(e, o, (enum schema_prop_id)p->id, 0, p->name_span);
-        struct desc_prop *next = copy->next;
-        *copy = *p;
-        copy->next = next;
-        copy->inherited = true;
-    }
-    o->broken |= base->broken;
-}
-
-struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const struct ast_node *node,
-                               const struct desc_object *base)
-{
-    struct desc_object *o = object_new(e, kind, node);
-    for (const struct ast_node *m = node->children; m; m = m->next) {
-        if (m->kind == AST_PROPERTY) {
-            eval_property(e, o, m);
-        } else if (m->kind != AST_ERROR) {
-            diag_report(e->diag, DIAG_MISPLACED, m->name_span,
-                        "a statement cannot stand in a block of '%s'", schema_kinds[kind].native);
-        } else {
-            o->broken = true;
-        }
-    }
-    if (base)
-        inherit(e, o, base);
-    return o;
-}
-
-static void set_camera(struct eval *e, const struct ast_node *node)
-{
-    struct desc_object *o = eval_block(e, KIND_CAMERA, node, NULL);
-    if (e->out->camera) {
+    if (modules_inside(e)) {
+        eval_same_model(e, node->name, node->name_span);
+    } else if (node != e->model) {
         struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_OBJECT, node->name_span,
-                                               "the scene has two cameras");
-        diag_label(entry, e->out->camera->span, "the first is here");
-        return;
-    }
-    e->out->camera = o;
-}
-
-/* `light point { ... }`: the label is the kind. */
-static void add_light(struct eval *e, const struct ast_node *node)
-{
-    if (!node->label.n) {
-        diag_report(e->diag, DIAG_MISSING_PROPERTY, node->name_span,
-                    "'light' needs a kind: 'light point' or 'light area'");
-        return;
-    }
-    enum schema_kind kind = schema_find_kind(SCHEMA_LIGHT, node->label, false);
-    if (kind == SCHEMA_KINDS) {
-        struct str head = srcmap_text(e->diag->sources, node->span);
-        uint32_t skip = (uint32_t)(node->label.at - head.at);
-        uint32_t begin = node->span.begin + skip;
-        report_unknown_kind(e, SCHEMA_LIGHT, node->label,
-                            (struct span){begin, begin + (uint32_t)node->label.n}, false);
-        return;
-    }
-    struct desc_object *o = eval_block(e, kind, node, NULL);
-    o->name = (struct str){0};
-    object_place(e, o);
-}
-
-static void report_unknown_statement(struct eval *e, const struct ast_node *node)
-{
-    e->out->incomplete = true;
-    struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
-                                           "unknown kind '%.*s'", STR_ARG(node->name));
-    struct str_nearest nearest = str_nearest_to(node->name);
-    str_nearest_try(&nearest, str_of("camera"));
-    str_nearest_try(&nearest, str_of("light"));
-    for (int k = 0; k < SCHEMA_KINDS; k++)
-        if (schema_kinds[k].group == SCHEMA_SURFACE)
-            str_nearest_try(&nearest, str_of(schema_kinds[k].native));
-    diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
-    diag_note(entry, "there are: camera light sphere cylinder triangle quad mesh");
-}
-
-static void eval_object(struct eval *e, const struct ast_node *node)
-{
-    enum schema_kind kind = schema_find_kind(SCHEMA_SURFACE, node->name, false);
-    if (str_is(node->name, "camera"))
-        set_camera(e, node);
-    else if (str_is(node->name, "light"))
-        add_light(e, node);
-    else if (kind == SCHEMA_KINDS)
-        report_unknown_statement(e, node);
-    else
-        object_place(e, eval_block(e, kind, node, NULL));
-}
-
-static void eval_statement(struct eval *e, const struct ast_node *node)
-{
-    switch (node->kind) {
-    case AST_MODEL:
-        eval_model(e, node);
-        break;
-    case AST_LET:
-        eval_let(e, node);
-        break;
-    case AST_PARAM:
-        eval_param(e, node);
-        break;
-    case AST_MATERIAL:
-        eval_named(e, node, SCHEMA_MATERIAL);
-        break;
-    case AST_TEXTURE:
-        eval_named(e, node, SCHEMA_TEXTURE);
-        break;
-    case AST_BLOCK:
-        eval_object(e, node);
-        break;
-    case AST_VERSION:
-    case AST_ERROR:
-        break;
-    default:
-        diag_report(e->diag, DIAG_MISPLACED, node->span,
-                    "this statement is not evaluated by this version");
-        break;
+                                               "the model is given twice");
+        diag_label(entry, e->model->name_span, "first given here");
     }
 }
 
-static void require_classic(struct eval *e, const struct ast_node *model)
+/* ---- control ---- */
+
+struct value eval_sequence(struct eval *e, const struct ast_node *node)
 {
-    if (e->out->model == MODEL_CLASSIC)
-        return;
+    struct value v = eval_value(e, node);
+    if (v.type == VALUE_LIST || v.type == VALUE_ERROR)
+        return v;
     struct diag_entry *entry =
-        diag_report(e->diag, DIAG_MODEL, model ? model->name_span : e->out->start,
-                    "the model 'modern' is not available; this version renders 'classic'");
-    diag_note(entry, model ? "write 'model classic'"
-                           : "a scene that names no model is modern; add the line 'model classic'");
+        diag_report(e->diag, DIAG_WRONG_TYPE, v.span, "'for' goes through a list, but this is %s",
+                    value_type_name(&v));
+    if (v.type == VALUE_NUMBER && !v.angles) {
+        struct str text = srcmap_text(e->diag->sources, v.span);
+        diag_note(entry, "range(n) is the list 0, 1, ... below n");
+        diag_fix(entry, v.span, DIAG_FIX_MAYBE, "range(%.*s)", STR_ARG(text));
+    }
+    return value_error(node->span);
+}
+
+/* The members of a body, in a scope of their own inside the current one. */
+static void eval_branch(struct eval *e, const struct ast_node *body, struct binding *variable)
+{
+    struct scope *outer = e->scope, scope;
+    unsigned inside = e->inside;
+    e->inside |= INSIDE_BRANCH;
+    scope_open(e, &scope, outer);
+    if (variable)
+        scope_add(&scope, variable);
+    eval_statements(e, body->children);
+    scope_close(e, outer);
+    e->inside = inside;
+}
+
+static void eval_for(struct eval *e, const struct ast_node *node)
+{
+    struct value list = eval_sequence(e, node->children);
+    struct frame frame;
+    if (list.type != VALUE_LIST)
+        return;
+    frame_open(e, &frame, DIAG_FRAME_ROUND, node->name_span);
+    for (uint32_t i = 0; i < list.n && !eval_stopped(e) && eval_spend(e, 1, node->span); i++) {
+        struct arena_mark mark = arena_mark(e->scratch);
+        struct binding b = {
+            .name = node->name, .span = node->name_span, .value = value_item(&list, i)};
+        frame_next(&frame, &b.value, i);
+        eval_branch(e, node->children->next, &b);
+        arena_release(e->scratch, mark);
+    }
+    frame_close(e, &frame);
+}
+
+static void eval_if(struct eval *e, const struct ast_node *node)
+{
+    for (bool yes; node;) {
+        const struct ast_node *body = node->children->next;
+        if (!eval_condition(e, node->children, &yes))
+            return;
+        const struct ast_node *taken = yes ? body : body->next;
+        if (taken && taken->kind == AST_BODY)
+            eval_branch(e, taken, NULL);
+        node = taken && taken->kind == AST_IF ? taken : NULL; /* else if */
+    }
+}
+
+static void eval_assert(struct eval *e, const struct ast_node *node)
+{
+    bool holds;
+    if (!eval_condition(e, node->children, &holds) || holds)
+        return;
+    struct value v = eval_value(e, node->children->next);
+    if (v.type == VALUE_STRING)
+        diag_report(e->diag, DIAG_ASSERTION, node->children->span, "%.*s", STR_ARG(v.string));
+    else if (v.type != VALUE_ERROR)
+        diag_report(e->diag, DIAG_WRONG_TYPE, v.span,
+                    "the message of 'assert' is a string, but this is %s", value_type_name(&v));
+}
+
+/* ---- any statement ---- */
+
+static const struct rule {
+    void (*run)(struct eval *e, const struct ast_node *node);
+    const char *word;
+    unsigned banned; /* enum inside: bodies it cannot stand in */
+    bool keeps;      /* what it makes outlives it */
+} rules[AST_KINDS] = {
+    [AST_MODEL] = {eval_model_statement, "model", INSIDE_BRANCH | INSIDE_GROUP | INSIDE_TEMPLATE,
+                   false},
+    [AST_INCLUDE] = {eval_include, "include", 0, true},
+    [AST_LET] = {eval_let, "let", 0, true},
+    [AST_PARAM] = {eval_param, "param", INSIDE_BRANCH | INSIDE_GROUP | INSIDE_TEMPLATE, true},
+    [AST_MATERIAL] = {eval_named, "material", 0, true},
+    [AST_TEXTURE] = {eval_named, "texture", 0, true},
+    [AST_FN] = {eval_routine, "fn", 0, true},
+    [AST_DEFINE] = {eval_routine, "define", INSIDE_BRANCH, true},
+    [AST_DEFAULT] = {eval_default, "default", 0, true},
+    [AST_ASSERT] = {eval_assert, "assert", 0, false},
+    [AST_FOR] = {eval_for, "for", 0, false},
+    [AST_IF] = {eval_if, "if", 0, false},
+    [AST_USE] = {eval_use, "a use", 0, false},
+    [AST_BLOCK] = {eval_object, "an object", 0, false},
+};
+
+static const char *body_words(unsigned inside)
+{
+    return inside & INSIDE_BRANCH  ? "the body of 'for' or 'if'"
+           : inside & INSIDE_GROUP ? "a group"
+                                   : "the body of 'define'";
+}
+
+void eval_statement(struct eval *e, const struct ast_node *node)
+{
+    const struct rule *r = &rules[node->kind];
+    if (node->kind == AST_PROPERTY) {
+        diag_report(e->diag, DIAG_MISPLACED, node->name_span,
+                    "a property cannot stand here, outside an object");
+        return;
+    }
+    if (node->kind == AST_ERROR)
+        vec_push(&e->damaged, node->span);
+    if (!r->run) /* AST_VERSION says nothing more */
+        return;
+    if (e->inside & r->banned) {
+        diag_report(e->diag, DIAG_MISPLACED, node->name_span, "'%s' cannot stand in %s", r->word,
+                    body_words(e->inside & r->banned));
+        return;
+    }
+    struct arena_mark mark = arena_mark(e->scratch);
+    e->given_up = false;
+    if (eval_enter(e, node->span))
+        r->run(e, node);
+    eval_leave(e);
+    if (!r->keeps)
+        arena_release(e->scratch, mark);
+}
+
+void eval_statements(struct eval *e, const struct ast_node *first)
+{
+    for (const struct ast_node *s = first; s && !eval_stopped(e); s = s->next)
+        eval_statement(e, s);
+}
+
+/* ---- a scene ---- */
+
+/* The model holds for the whole scene, wherever it stands.  Without a name the scene is modern,
+ * unless the name may stand in what did not parse. */
+static void take_model(struct eval *e, const struct ast_node *statements)
+{
+    bool damaged = false;
+    e->out->model = SCHEMA_MODERN;
+    e->out->model_span = e->out->start;
+    for (const struct ast_node *s = statements; s; s = s->next) {
+        damaged |= s->kind == AST_ERROR;
+        if (s->kind != AST_MODEL)
+            continue;
+        e->model = s;
+        e->out->model_span = s->name_span;
+        eval_model(e, s->name, s->name_span);
+        return;
+    }
+    e->model_unknown = damaged;
 }
 
 void eval_native(struct eval *e, const struct ast_node *statements)
 {
-    const struct ast_node *model = NULL;
-    bool damaged = false;
-    e->out->model = MODEL_MODERN;
-    for (const struct ast_node *s = statements; s && !diag_full(e->diag); s = s->next) {
-        damaged |= s->kind == AST_ERROR;
-        if (s->kind == AST_MODEL && model) {
-            struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_OBJECT, s->name_span,
-                                                   "the model is given twice");
-            diag_label(entry, model->name_span, "first given here");
-            continue;
-        }
-        if (s->kind == AST_MODEL)
-            model = s;
-        eval_statement(e, s);
-    }
-    if (model || !damaged) /* else the model may stand in what did not parse */
-        require_classic(e, model);
+    take_model(e, statements);
+    eval_statements(e, statements);
 }

@@ -3,15 +3,15 @@
 
 #include "eval/context.h"
 
-#include <stdio.h>
-
-struct desc_object *object_new(struct eval *e, enum schema_kind kind, const struct ast_node *node)
+struct desc_object *object_new(struct eval *e, struct arena *a, enum schema_kind kind,
+                               const struct ast_node *node)
 {
-    struct desc_object *o = arena_zalloc(&e->out->arena, 1, sizeof *o);
+    struct desc_object *o = arena_zalloc(a, 1, sizeof *o);
     o->kind = kind;
+    o->model = (uint8_t)e->out->model;
     o->xml = node->xml;
     o->span = node->name_span;
-    o->name = node->label;
+    o->frame = frame_keep(e);
     return o;
 }
 
@@ -26,12 +26,12 @@ static struct desc_prop *find(struct desc_object *o, enum schema_prop_id id,
     return NULL;
 }
 
-struct desc_prop *object_prop(struct eval *e, struct desc_object *o, enum schema_prop_id id,
-                              unsigned leaf, struct span name_span)
+struct desc_prop *object_prop(struct eval *e, struct arena *a, struct desc_object *o,
+                              enum schema_prop_id id, unsigned leaf, struct span name_span)
 {
     struct desc_prop **end = NULL, *p = find(o, id, &end);
     if (!p) {
-        *end = p = arena_zalloc(&e->out->arena, 1, sizeof *p);
+        *end = p = arena_zalloc(a, 1, sizeof *p);
         p->id = (uint8_t)id;
         p->name_span = name_span;
     } else if (p->leaves >> leaf & 1) {
@@ -46,113 +46,99 @@ struct desc_prop *object_prop(struct eval *e, struct desc_object *o, enum schema
     return p;
 }
 
-/* "a sphere has: center radius ..." */
-static void note_props(struct diag_entry *entry, const struct desc_object *o)
-{
-    char list[512];
-    size_t at = 0;
-    struct str leaf;
-    for (int p = 0; p < SCHEMA_PROPS && at < sizeof list; p++) {
-        enum schema_prop_id id = (enum schema_prop_id)p;
-        for (unsigned n = 0; schema_has(o->kind, id) && at < sizeof list &&
-                             (leaf = o->xml ? schema_leaf(id, n) : schema_prop_name(id, false)).n;
-             n++) {
-            int put = snprintf(list + at, sizeof list - at, " %.*s", STR_ARG(leaf));
-            at += put > 0 ? (size_t)put : 0;
-            if (!o->xml)
-                break;
-        }
-    }
-    const char *kind = schema_kind_name(o->kind, o->xml);
-    diag_note(entry, "%s has:%s", kind, list);
-}
-
 enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o, struct str name,
                                      struct span name_span, unsigned *leaf)
 {
     enum schema_prop_id id = schema_find_prop(o->kind, name, o->xml, leaf);
-    if (id != SCHEMA_PROPS)
-        return id;
-    const char *kind = schema_kind_name(o->kind, o->xml);
-    struct diag_entry *entry =
-        diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, name_span, "unknown %s '%.*s' of %s",
-                    o->xml ? "element" : "property", STR_ARG(name), kind);
-    diag_did_you_mean(entry, name_span, schema_nearest_prop(o->kind, name, o->xml));
-    note_props(entry, o);
-    return SCHEMA_PROPS;
+    if (id == SCHEMA_PROPS) {
+        report_unknown_property(e, o, name, name_span);
+    } else if (!(schema_props[id].models >> o->model & 1) && !e->model_unknown) {
+        report_property_of_other_model(e, o, name, name_span);
+        return SCHEMA_PROPS;
+    }
+    return id;
+}
+
+/* ---- what an object does not say itself ---- */
+
+/* Copies of the properties the object lacks. */
+static void take_missing(struct eval *e, struct desc_object *o, const struct desc_object *base,
+                         bool material_known)
+{
+    for (const struct desc_prop *p = base->props; p; p = p->next) {
+        struct desc_prop **end;
+        enum schema_prop_id id = (enum schema_prop_id)p->id;
+        if ((material_known && id == PROP_MATERIAL) || find(o, id, &end))
+            continue;
+        struct desc_prop *copy = arena_alloc(&e->out->arena, sizeof *copy);
+        *copy = *p;
+        copy->next = NULL;
+        copy->inherited = true;
+        *end = copy;
+    }
+    o->broken |= base->broken;
+}
+
+void object_inherit(struct eval *e, struct desc_object *o, const struct desc_object *base)
+{
+    take_missing(e, o, base, false);
+}
+
+static void take_fallbacks(struct eval *e, struct desc_object *o, bool material_known)
+{
+    if (!(e->fallback_kinds >> o->kind & 1))
+        return;
+    for (const struct scope *s = e->scope; s; s = s->parent)
+        for (const struct fallback *f = s->fallbacks; f; f = f->next)
+            if (f->object->kind == o->kind)
+                take_missing(e, o, f->object, material_known);
+}
+
+void object_complete(struct eval *e, struct desc_object *o)
+{
+    take_fallbacks(e, o, false);
+}
+
+/* ---- into the description ---- */
+
+static void count(struct eval *e, size_t have, const struct desc_object *o, const char *what)
+{
+    if (have != e->options->max_objects)
+        return;
+    diag_report(e->diag, DIAG_TOO_MANY_OBJECTS, o->span,
+                "more than the %zu %s that --max-objects allows", have, what);
+    e->stopped = true;
 }
 
 void object_place(struct eval *e, struct desc_object *o)
 {
     struct desc *d = e->out;
+    struct desc_prop **end;
     if (!o)
         return;
-    size_t have = d->lights.n + d->surfaces.n;
-    if (have == e->options->max_objects)
-        diag_report(e->diag, DIAG_TOO_MANY_OBJECTS, o->span,
-                    "more than the %zu objects that --max-objects allows", have);
-    if (schema_kinds[o->kind].group == SCHEMA_LIGHT)
-        vec_push(&d->lights, o);
-    else
+    bool surface = schema_kinds[o->kind].group == SCHEMA_SURFACE;
+    bool material = surface && e->group_material && !find(o, PROP_MATERIAL, &end);
+    if (!o->xml)
+        take_fallbacks(e, o, material);
+    if (material && !find(o, PROP_MATERIAL, &end))
+        *end = e->group_material; /* shared: always the last */
+    o->place = e->place ? &e->place->affine : NULL;
+    count(e, d->lights.n + d->surfaces.n, o, "objects");
+    if (surface)
         vec_push(&d->surfaces, o);
+    else
+        vec_push(&d->lights, o);
 }
 
 void object_register(struct eval *e, struct desc_object *o)
 {
     if (schema_kinds[o->kind].group == SCHEMA_TEXTURE) {
+        count(e, e->out->textures.n, o, "textures");
         o->number = (uint32_t)e->out->textures.n;
         vec_push(&e->out->textures, o);
     } else if (schema_kinds[o->kind].group == SCHEMA_MATERIAL) {
+        count(e, e->out->materials.n, o, "materials");
         o->number = (uint32_t)e->out->materials.n;
         vec_push(&e->out->materials, o);
     }
-}
-
-void try_defined_names(struct eval *e, struct str_nearest *nearest)
-{
-    enum {
-        MOST = 1000 * 1000
-    }; /* keeps thousands of unknown names among as many from taking minutes */
-    e->names_tried += e->names.capacity;
-    for (size_t i = 0; i < e->names.capacity && e->names_tried <= MOST; i++)
-        if (e->names.slots[i].value)
-            str_nearest_try(nearest, e->names.slots[i].key);
-}
-
-void report_unknown_kind(struct eval *e, enum schema_group group, struct str name, struct span span,
-                         bool xml)
-{
-    struct diag_entry *entry =
-        diag_report(e->diag, DIAG_UNKNOWN_KIND, span, "unknown %s %s '%.*s'",
-                    schema_group_name(group), xml ? "class" : "kind", STR_ARG(name));
-    diag_did_you_mean(entry, span, schema_nearest_kind(group, name, xml));
-    char list[256];
-    size_t at = 0;
-    for (int k = 0; k < SCHEMA_KINDS && at < sizeof list; k++) {
-        if (schema_kinds[k].group != group)
-            continue;
-        int put = snprintf(list + at, sizeof list - at, "%s%s", at ? ", " : " ",
-                           schema_kind_name((enum schema_kind)k, xml));
-        at += put > 0 ? (size_t)put : 0;
-    }
-    diag_note(entry, "there are:%s", list);
-}
-
-void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word, struct span span,
-                         bool xml)
-{
-    struct diag_entry *entry =
-        diag_report(e->diag, DIAG_UNKNOWN_WORD, span, "'%.*s' is not one of the words of '%.*s'",
-                    STR_ARG(word), STR_ARG(schema_prop_name(id, xml)));
-    struct str_nearest nearest = str_nearest_to(word);
-    char list[256];
-    size_t at = 0;
-    struct str known;
-    for (unsigned n = 0; at < sizeof list && (known = schema_word(id, n, xml)).n; n++) {
-        str_nearest_try(&nearest, known);
-        int put = snprintf(list + at, sizeof list - at, " %.*s", STR_ARG(known));
-        at += put > 0 ? (size_t)put : 0;
-    }
-    diag_did_you_mean(entry, span, str_nearest_found(&nearest));
-    diag_note(entry, "there are:%s", list);
 }

@@ -94,6 +94,8 @@ static enum schema_kind take_kind(struct eval *e, const struct ast_node *node,
     enum schema_kind kind = schema_find_kind(group, name, true);
     if (kind == SCHEMA_KINDS)
         report_unknown_kind(e, group, name, attribute_span(a->class), true);
+    else if (!kind_exists(e, kind, attribute_span(a->class), true))
+        kind = SCHEMA_KINDS;
     return kind;
 }
 
@@ -105,7 +107,8 @@ static void eval_inner_element(struct eval *e, struct desc_object *o, const stru
 {
     unsigned leaf;
     enum schema_prop_id id = object_find_prop(e, o, node->name, node->name_span, &leaf);
-    struct desc_prop *p = id != SCHEMA_PROPS ? object_prop(e, o, id, leaf, node->name_span) : NULL;
+    struct desc_prop *p =
+        id != SCHEMA_PROPS ? object_prop(e, &e->out->arena, o, id, leaf, node->name_span) : NULL;
     if (!p) {
         o->broken = true;
         return;
@@ -131,7 +134,7 @@ static void eval_inner_element(struct eval *e, struct desc_object *o, const stru
 
 static void eval_members(struct eval *e, struct desc_object *o, const struct ast_node *node)
 {
-    for (const struct ast_node *m = node->children; m && !diag_full(e->diag); m = m->next) {
+    for (const struct ast_node *m = node->children; m && !eval_stopped(e); m = m->next) {
         if (m->kind == AST_PROPERTY)
             eval_leaf(e, o, m);
         else if (m->kind == AST_BLOCK)
@@ -147,25 +150,32 @@ static struct desc_object *new_material(struct eval *e, const struct ast_node *n
     enum schema_kind kind = take_kind(e, node, a, SCHEMA_MATERIAL);
     if (kind == SCHEMA_KINDS)
         return NULL;
-    struct desc_object *o = object_new(e, kind, node);
+    struct desc_object *o = object_new(e, &e->out->arena, kind, node);
     eval_members(e, o, node);
     object_register(e, o);
     return o;
 }
 
-/* The material with this id, evaluated when first asked for. */
-static struct desc_object *named_material(struct eval *e, struct binding *b)
+/* A material with an id. */
+struct named {
+    struct str name;
+    struct span span;
+    const struct ast_node *node;
+    bool asked_for;
+    struct desc_object *object; /* evaluated when first asked for; NULL before and after errors */
+};
+
+static struct desc_object *named_material(struct eval *e, struct named *m)
 {
-    if (b->value.type != VALUE_OBJECT && !b->busy) {
-        b->busy = true;
+    if (!m->asked_for) {
+        m->asked_for = true;
         struct attributes a =
-            take_attributes(e, b->node, "a material", ATTRIBUTE_CLASS | ATTRIBUTE_ID);
-        b->value.object = new_material(e, b->node, &a);
-        b->value.type = VALUE_OBJECT;
-        if (b->value.object)
-            b->value.object->name = b->name;
+            take_attributes(e, m->node, "a material", ATTRIBUTE_CLASS | ATTRIBUTE_ID);
+        m->object = new_material(e, m->node, &a);
+        if (m->object)
+            m->object->name = m->name;
     }
-    return b->value.object;
+    return m->object;
 }
 
 static void report_unknown_id(struct eval *e, struct str name, struct span span)
@@ -173,7 +183,7 @@ static void report_unknown_id(struct eval *e, struct str name, struct span span)
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, span,
                                            "no material has the id '%.*s'", STR_ARG(name));
     struct str_nearest nearest = str_nearest_to(name);
-    try_defined_names(e, &nearest);
+    map_try_names(e, &e->ids, &nearest);
     diag_did_you_mean(entry, span, str_nearest_found(&nearest));
 }
 
@@ -181,14 +191,14 @@ static struct desc_object *referenced_material(struct eval *e, const struct ast_
                                                const struct attributes *a)
 {
     struct str name = attribute_text(a->ref);
-    struct binding *b = map_get(&e->names, name);
-    if (!b)
+    struct named *named = map_get(&e->ids, name);
+    if (!named)
         report_unknown_id(e, name, attribute_span(a->ref));
     for (const struct ast_node *m = node->children; m; m = m->next)
         if (m->kind != AST_ATTRIBUTE)
             diag_report(e->diag, DIAG_CONFLICT, m->span,
                         "a material with 'ref' takes nothing else");
-    return b ? named_material(e, b) : NULL;
+    return named ? named_material(e, named) : NULL;
 }
 
 static struct desc_object *eval_material(struct eval *e, const struct ast_node *node)
@@ -196,9 +206,9 @@ static struct desc_object *eval_material(struct eval *e, const struct ast_node *
     for (const struct ast_node *c = node->children; c; c = c->next) {
         if (c->kind != AST_ATTRIBUTE || !str_is(c->name, "id"))
             continue;
-        struct binding *b = map_get(&e->names, attribute_text(c));
-        if (b && b->node == node)
-            return named_material(e, b);
+        struct named *named = map_get(&e->ids, attribute_text(c));
+        if (named && named->node == node)
+            return named_material(e, named);
     }
     struct attributes a =
         take_attributes(e, node, "a material", ATTRIBUTE_CLASS | ATTRIBUTE_ID | ATTRIBUTE_REF);
@@ -214,16 +224,16 @@ static void collect_ids(struct eval *e, const struct ast_node *node)
         if (c->kind != AST_ATTRIBUTE || !str_is(c->name, "id") || !str_is(node->name, "material"))
             continue;
         struct str name = attribute_text(c);
-        struct binding *b = map_get(&e->names, name);
-        if (b) {
+        struct named *named = map_get(&e->ids, name);
+        if (named) {
             struct diag_entry *entry = diag_report(e->diag, DIAG_DUPLICATE_NAME, attribute_span(c),
                                                    "the id '%.*s' is given twice", STR_ARG(name));
-            diag_label(entry, b->span, "first given here");
+            diag_label(entry, named->span, "first given here");
             continue;
         }
-        b = arena_zalloc(&e->out->arena, 1, sizeof *b);
-        *b = (struct binding){.name = name, .span = attribute_span(c), .node = node};
-        map_set(&e->names, name, b);
+        named = arena_alloc(e->scratch, sizeof *named);
+        *named = (struct named){.name = name, .span = attribute_span(c), .node = node};
+        map_set(&e->ids, name, named);
     }
 }
 
@@ -231,12 +241,13 @@ static struct desc_object *eval_item(struct eval *e, const struct ast_node *node
                                      enum schema_group group, unsigned allowed)
 {
     struct attributes a = take_attributes(e, node, schema_group_name(group), allowed);
-    enum schema_kind kind = group == SCHEMA_TEXTURE  ? KIND_IMAGE
-                            : group == SCHEMA_CAMERA ? KIND_CAMERA
-                                                     : take_kind(e, node, &a, group);
+    enum schema_kind kind = group == SCHEMA_TEXTURE    ? KIND_IMAGE
+                            : group == SCHEMA_CAMERA   ? KIND_CAMERA
+                            : group == SCHEMA_SETTINGS ? KIND_SETTINGS
+                                                       : take_kind(e, node, &a, group);
     if (kind == SCHEMA_KINDS)
         return NULL;
-    struct desc_object *o = object_new(e, kind, node);
+    struct desc_object *o = object_new(e, &e->out->arena, kind, node);
     if (a.id)
         o->name = attribute_text(a.id);
     eval_members(e, o, node);
@@ -252,6 +263,12 @@ static struct desc_object *eval_surface(struct eval *e, const struct ast_node *n
 static void add_camera(struct eval *e, const struct ast_node *node)
 {
     e->out->camera = eval_item(e, node, SCHEMA_CAMERA, 0);
+}
+
+static void add_settings(struct eval *e, const struct ast_node *node)
+{
+    if (kind_exists(e, KIND_SETTINGS, node->name_span, true))
+        e->out->settings = eval_item(e, node, SCHEMA_SETTINGS, 0);
 }
 
 static void add_light(struct eval *e, const struct ast_node *node)
@@ -276,6 +293,7 @@ static const struct section {
     bool array;
     void (*add)(struct eval *e, const struct ast_node *node);
 } sections[] = {{"camera", false, add_camera},
+                {"settings", false, add_settings},
                 {"textures", true, add_texture},
                 {"lights", true, add_light},
                 {"surfaces", true, add_surface}};
@@ -294,7 +312,7 @@ static void eval_section(struct eval *e, const struct section *s, const struct a
         return;
     }
     take_attributes(e, node, s->name, 0);
-    for (const struct ast_node *item = node->children; item && !diag_full(e->diag);
+    for (const struct ast_node *item = node->children; item && !eval_stopped(e);
          item = item->next) {
         if (item->kind == AST_BLOCK || item->kind == AST_PROPERTY)
             s->add(e, item);
@@ -316,27 +334,26 @@ static const struct section *find_section(struct eval *e, const struct ast_node 
         diag_report(e->diag, DIAG_UNKNOWN_PROPERTY, node->name_span,
                     "unknown element '%.*s' of the scene", STR_ARG(node->name));
     diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
-    diag_note(entry, "a scene has: camera lights textures surfaces");
+    diag_note(entry, "a scene has: camera %slights textures surfaces",
+              e->out->model == SCHEMA_MODERN ? "settings " : "");
     return NULL;
 }
 
 static void eval_root_attributes(struct eval *e, const struct ast_node *root)
 {
     struct attributes a = take_attributes(e, root, "the scene", ATTRIBUTE_MODEL);
-    if (a.model && !str_is(attribute_text(a.model), "classic"))
-        diag_report(e->diag, DIAG_MODEL, attribute_span(a.model),
-                    "the model '%.*s' is not available; this version renders 'classic'",
-                    STR_ARG(attribute_text(a.model)));
+    e->out->model = SCHEMA_CLASSIC;
+    e->out->model_span = a.model ? attribute_span(a.model) : root->name_span;
+    e->model = a.model;
+    if (a.model)
+        eval_model(e, attribute_text(a.model), attribute_span(a.model));
 }
 
-void eval_xml(struct eval *e, const struct ast_node *root)
+/* The sections among the children of the root, each once. */
+static void find_sections(struct eval *e, const struct ast_node *root,
+                          const struct ast_node *found[SECTIONS])
 {
-    const struct ast_node *found[SECTIONS] = {0};
-    if (!root)
-        return;
-    e->out->start = root->name_span;
-    eval_root_attributes(e, root);
-    for (const struct ast_node *c = root->children; c && !diag_full(e->diag); c = c->next) {
+    for (const struct ast_node *c = root->children; c && !eval_stopped(e); c = c->next) {
         if (c->kind == AST_TEXT && c->text.n)
             diag_report(e->diag, DIAG_MISPLACED, c->span, "text cannot stand between elements");
         if (c->kind != AST_BLOCK && c->kind != AST_PROPERTY)
@@ -351,8 +368,39 @@ void eval_xml(struct eval *e, const struct ast_node *root)
             *slot = c;
         }
     }
+}
+
+void eval_xml(struct eval *e, const struct ast_node *root)
+{
+    const struct ast_node *found[SECTIONS] = {0};
+    if (!root)
+        return;
+    e->out->start = root->name_span;
+    eval_root_attributes(e, root);
+    find_sections(e, root, found);
     collect_ids(e, root);
     for (int i = 0; i < SECTIONS; i++)
         if (found[i])
             eval_section(e, &sections[i], found[i]);
+}
+
+/* Ids and texture numbers are the document's own. */
+void eval_xml_parts(struct eval *e, const struct ast_node *root)
+{
+    const struct ast_node *found[SECTIONS] = {0};
+    struct map ids = e->ids;
+    size_t first_texture = e->first_texture;
+    struct attributes a = take_attributes(e, root, "the scene", ATTRIBUTE_MODEL);
+    if (a.model)
+        eval_same_model(e, attribute_text(a.model), attribute_span(a.model));
+    e->ids = (struct map){0};
+    e->first_texture = e->out->textures.n;
+    find_sections(e, root, found);
+    collect_ids(e, root);
+    for (int i = 0; i < SECTIONS; i++)
+        if (found[i] && sections[i].array)
+            eval_section(e, &sections[i], found[i]);
+    map_free(&e->ids);
+    e->ids = ids;
+    e->first_texture = first_texture;
 }

@@ -28,8 +28,7 @@ static uint32_t *none_of(size_t n)
 
 static void note_skipped(struct lowering *l, const char *what, struct str name)
 {
-    vec_push(&l->scene->skipped,
-             arena_printf(&l->scene->arena, "%s %.*s", what, STR_ARG(name)));
+    vec_push(&l->scene->skipped, arena_printf(&l->scene->arena, "%s %.*s", what, STR_ARG(name)));
 }
 
 /* Names what was left out, for --stats. */
@@ -50,10 +49,39 @@ static void note_unused(struct lowering *l)
     }
 }
 
+static bool has_places(const struct desc *d)
+{
+    for (size_t i = 0; i < d->lights.n; i++)
+        if (d->lights.at[i]->place)
+            return true;
+    for (size_t i = 0; i < d->surfaces.n; i++)
+        if (d->surfaces.at[i]->place)
+            return true;
+    return false;
+}
+
+/* What the front end reads and the tracer does not know. */
+static bool is_available(const struct desc *d, struct diag *diag)
+{
+    if (d->model == SCHEMA_MODERN) {
+        struct diag_entry *e =
+            diag_report(diag, DIAG_MODEL, d->model_span,
+                        "the model 'modern' is not available; this version renders 'classic'");
+        diag_note(e, "a scene that names no model is modern; 'model classic' is the other");
+        return false;
+    }
+    if (has_places(d))
+        diag_report(diag, DIAG_MODEL, d->model_span,
+                    "groups that move, turn or scale are not available in this version");
+    return !has_places(d);
+}
+
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag)
 {
     *out = (struct lowered){0};
+    if (!is_available(d, diag))
+        return false;
     struct lowering l = {
         .desc = d,
         .sources = sources,

@@ -48,17 +48,53 @@ static void describe_numbers(struct buffer *out, const double *x, unsigned n)
     buffer_puts(out, n > 1 ? ")" : "");
 }
 
-void describe_default(struct buffer *out, enum schema_prop_id id)
+static void describe_default_in(struct buffer *out, enum schema_prop_id id, enum schema_model model)
 {
     static const uint8_t components[SCHEMA_TYPES] = {
         [TYPE_VECTOR] = 3, [TYPE_VECTOR_OR_PAIR] = 3, [TYPE_SCALE] = 3,
-        [TYPE_COLOUR] = 3, [TYPE_SIZE] = 2,
+        [TYPE_COLOUR] = 3, [TYPE_SIZE] = 2,           [TYPE_ROTATION] = 3,
     };
     const struct schema_prop *p = &schema_props[id];
     if (p->type == TYPE_WORD)
-        buffer_str(out, schema_word(id, (unsigned)p->value[0], false));
+        buffer_str(out, schema_word(id, (unsigned)p->value[model][0], false));
     else
-        describe_numbers(out, p->value, components[p->type] ? components[p->type] : 1);
+        describe_numbers(out, p->value[model], components[p->type] ? components[p->type] : 1);
+}
+
+bool describe_has_one_default(enum schema_prop_id id)
+{
+    const struct schema_prop *p = &schema_props[id];
+    const double(*v)[3] = p->value;
+    bool same = memcmp(v[SCHEMA_CLASSIC], v[SCHEMA_MODERN], sizeof v[0]) == 0;
+    return (p->has_default & p->models) == p->models && (same || p->models != IN_BOTH);
+}
+
+void describe_default(struct buffer *out, enum schema_prop_id id)
+{
+    unsigned models = schema_props[id].has_default & schema_props[id].models;
+    bool any = false;
+    for (int m = 0; m < SCHEMA_MODELS; m++) {
+        if (!(models >> m & 1))
+            continue;
+        buffer_puts(out, any ? ", " : "");
+        any = true;
+        describe_default_in(out, id, (enum schema_model)m);
+        if (describe_has_one_default(id))
+            return;
+        buffer_printf(out, " in %s", schema_model_name((enum schema_model)m));
+    }
+}
+
+void describe_conditions(struct buffer *out, enum schema_prop_id id)
+{
+    const struct schema_prop *p = &schema_props[id];
+    if (p->required)
+        buffer_puts(out, "required");
+    if (p->required && p->required != IN_BOTH)
+        buffer_printf(out, " in %s", p->required == IN_MODERN ? "modern" : "classic");
+    if (p->models != IN_BOTH)
+        buffer_printf(out, "%smodel %s only", p->required ? ", " : "",
+                      p->models == IN_MODERN ? "modern" : "classic");
 }
 
 void describe_leaves(struct buffer *out, enum schema_prop_id id)
@@ -71,7 +107,9 @@ void describe_leaves(struct buffer *out, enum schema_prop_id id)
 void describe_element(struct buffer *out, enum schema_kind kind)
 {
     const struct schema_kind_row *k = &schema_kinds[kind];
-    if (k->group == SCHEMA_CAMERA || k->group == SCHEMA_TEXTURE)
+    if (k->group == SCHEMA_PLACE)
+        buffer_puts(out, "none");
+    else if (k->group == SCHEMA_CAMERA || k->group == SCHEMA_SETTINGS || k->group == SCHEMA_TEXTURE)
         buffer_printf(out, "<%s>", k->xml);
     else
         buffer_printf(out, "<%s class=\"%s\">", schema_group_name(k->group), k->xml);

@@ -12,8 +12,14 @@ void describe_range(struct buffer *out, enum schema_prop_id id);
 /* What may be given: "a number above 0", "one of sphere, quad". */
 void describe_value(struct buffer *out, enum schema_prop_id id, bool xml);
 
-/* The default as native text; only for properties with .has_default. */
+/* "required", "required in classic", "model modern only"; nothing for what is neither. */
+void describe_conditions(struct buffer *out, enum schema_prop_id id);
+
+/* The default as native text, that of each model where they differ; only for properties with
+ * .has_default. */
 void describe_default(struct buffer *out, enum schema_prop_id id);
+/* True when the default is the same wherever the property exists. */
+bool describe_has_one_default(enum schema_prop_id id);
 
 /* The element or elements that spell it: "<v0> <v1> <v2>", `<surface class="Sphere">`. */
 void describe_leaves(struct buffer *out, enum schema_prop_id id);

@@ -9,9 +9,11 @@ static const struct {
     const char *title, *common;
 } groups[SCHEMA_GROUPS] = {
     [SCHEMA_CAMERA] = {"Camera", NULL},
+    [SCHEMA_SETTINGS] = {"Settings", NULL},
     [SCHEMA_LIGHT] = {"Lights", "Every light also has:"},
     [SCHEMA_TEXTURE] = {"Textures", NULL},
     [SCHEMA_SURFACE] = {"Surfaces", "Every surface also has:"},
+    [SCHEMA_PLACE] = {"Groups", NULL},
     [SCHEMA_MATERIAL] = {"Materials", "Every material also has:"},
 };
 
@@ -41,16 +43,18 @@ static void add_property(struct buffer *out, enum schema_prop_id id)
     const struct schema_prop *p = &schema_props[id];
     buffer_printf(out, ".It Ic %s Ns No \\&: ", p->native);
     describe_value(out, id, false);
-    if (p->required)
-        buffer_puts(out, ", required");
+    if (p->required || p->models != IN_BOTH)
+        buffer_puts(out, ", ");
+    describe_conditions(out, id);
     buffer_puts(out, "\n");
     add_sentence(out, p->doc);
     if (p->has_default) {
-        buffer_puts(out, "The default is\n.Ql ");
+        bool one = describe_has_one_default(id);
+        buffer_puts(out, one ? "The default is\n.Ql " : "The default is ");
         describe_default(out, id);
-        buffer_puts(out, " .\n");
+        buffer_puts(out, one ? " .\n" : ".\n");
     }
-    if (strcmp(p->native, p->xml) != 0) {
+    if (*p->xml && strcmp(p->native, p->xml) != 0) {
         buffer_puts(out, "In XML:\n.Ql ");
         describe_leaves(out, id);
         buffer_puts(out, " .\n");
@@ -78,9 +82,12 @@ static void add_kind(struct buffer *out, enum schema_kind kind)
     const struct schema_kind_row *k = &schema_kinds[kind];
     buffer_printf(out, ".Ic %s\n\\(em ", k->native);
     add_text(out, str_of(k->doc));
-    buffer_puts(out, ".\nIn XML:\n.Ql ");
-    describe_element(out, kind);
-    buffer_puts(out, " .\n");
+    buffer_puts(out, k->models == IN_MODERN ? "; model modern only.\n" : ".\n");
+    if (k->group != SCHEMA_PLACE) {
+        buffer_puts(out, "In XML:\n.Ql ");
+        describe_element(out, kind);
+        buffer_puts(out, " .\n");
+    }
     add_properties(out, kind, false);
 }
 

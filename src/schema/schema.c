@@ -5,7 +5,8 @@
 #include <assert.h>
 
 const struct schema_kind_row schema_kinds[SCHEMA_KINDS] = {
-#define KIND(id, group_, native_, xml_, doc_) [KIND_##id] = {SCHEMA_##group_, native_, xml_, doc_},
+#define KIND(id, group_, models_, native_, xml_, doc_) \
+    [KIND_##id] = {SCHEMA_##group_, IN_##models_, native_, xml_, doc_},
 #include "schema/schema.def"
 };
 
@@ -17,33 +18,30 @@ static const struct {
 #include "schema/schema.def"
 };
 
+/* Fields of the rows. */
 #define K(id) (UINT32_C(1) << KIND_##id)
-#define DEFAULT(...) .has_default = true, .value = {__VA_ARGS__}
+#define REQUIRED .required = IN_BOTH
+#define REQUIRED_IN(model) .required = IN_##model
+#define DEFAULT(...) .has_default = IN_BOTH, .value = {{__VA_ARGS__}, {__VA_ARGS__}}
+#define DEFAULT_IN(model, ...) .value[SCHEMA_##model] = {__VA_ARGS__}
+#define HAS_DEFAULT_IN(models) .has_default = IN_##models
 #define RANGE_FROM(x) .has_least = true, .least = (x)
 #define RANGE_ABOVE(x) .has_least = true, .above = true, .least = (x)
 
 const struct schema_prop schema_props[SCHEMA_PROPS] = {
-#define PROP(id, kinds_, native_, xml_, type_, doc_, ...)                                          \
-    [PROP_##id] = {.kinds = (kinds_), .native = native_, .xml = xml_, .type = TYPE_##type_,        \
-                   .doc = doc_, ##__VA_ARGS__},
+#define PROP(id, kinds_, models_, native_, xml_, type_, doc_, ...) \
+    [PROP_##id] = {.kinds = (kinds_),                              \
+                   .models = IN_##models_,                         \
+                   .native = native_,                              \
+                   .xml = xml_,                                    \
+                   .type = TYPE_##type_,                           \
+                   .doc = doc_,                                    \
+                   ##__VA_ARGS__},
 #include "schema/schema.def"
 };
 
 static_assert(SCHEMA_PROPS <= 255, "desc_prop.id is a byte");
 static_assert(SCHEMA_KINDS <= 32, "schema_prop.kinds has a bit for each kind");
-
-/* The n-th of the words in a space-separated list; empty behind the last. */
-static struct str nth_word(const char *list, unsigned n)
-{
-    for (;;) {
-        size_t length = strcspn(list, " ");
-        if (n-- == 0)
-            return (struct str){list, length};
-        if (!list[length])
-            return (struct str){0};
-        list += length + 1;
-    }
-}
 
 /* The native (left) or XML (right) half of "native=xml". */
 static struct str half_of(struct str pair, bool xml)
@@ -78,11 +76,12 @@ enum schema_kind schema_find_kind(enum schema_group group, struct str name, bool
     return SCHEMA_KINDS;
 }
 
-struct str schema_nearest_kind(enum schema_group group, struct str name, bool xml)
+struct str schema_nearest_kind(enum schema_group group, enum schema_model model, struct str name,
+                               bool xml)
 {
     struct str_nearest nearest = str_nearest_to(name);
     for (int k = 0; k < SCHEMA_KINDS; k++)
-        if (schema_kinds[k].group == group)
+        if (schema_kinds[k].group == group && (schema_kinds[k].models >> model & 1))
             str_nearest_try(&nearest, str_of(kind_word((enum schema_kind)k, xml)));
     return str_nearest_found(&nearest);
 }
@@ -108,13 +107,14 @@ enum schema_prop_id schema_find_prop(enum schema_kind kind, struct str name, boo
     return SCHEMA_PROPS;
 }
 
-struct str schema_nearest_prop(enum schema_kind kind, struct str name, bool xml)
+struct str schema_nearest_prop(enum schema_kind kind, enum schema_model model, struct str name,
+                               bool xml)
 {
     struct str_nearest nearest = str_nearest_to(name);
     for (int p = 0; p < SCHEMA_PROPS; p++) {
         enum schema_prop_id id = (enum schema_prop_id)p;
         struct str leaf;
-        if (!schema_has(kind, id))
+        if (!schema_has(kind, id) || !(schema_props[id].models >> model & 1))
             continue;
         if (!xml)
             str_nearest_try(&nearest, str_of(schema_props[p].native));
@@ -126,7 +126,7 @@ struct str schema_nearest_prop(enum schema_kind kind, struct str name, bool xml)
 
 struct str schema_leaf(enum schema_prop_id prop, unsigned n)
 {
-    return nth_word(schema_props[prop].xml, n);
+    return str_nth_word(schema_props[prop].xml, n);
 }
 
 unsigned schema_leaf_count(enum schema_prop_id prop)
@@ -144,7 +144,7 @@ struct str schema_prop_name(enum schema_prop_id prop, bool xml)
 
 struct str schema_word(enum schema_prop_id prop, unsigned n, bool xml)
 {
-    return half_of(nth_word(schema_props[prop].words, n), xml);
+    return half_of(str_nth_word(schema_props[prop].words, n), xml);
 }
 
 int schema_find_word(enum schema_prop_id prop, struct str word, bool xml)
@@ -156,11 +156,17 @@ int schema_find_word(enum schema_prop_id prop, struct str word, bool xml)
     return -1;
 }
 
+const char *schema_model_name(enum schema_model model)
+{
+    return model == SCHEMA_MODERN ? "modern" : "classic";
+}
+
 const char *schema_group_name(enum schema_group group)
 {
     static const char *const names[SCHEMA_GROUPS] = {
-        [SCHEMA_CAMERA] = "camera",   [SCHEMA_LIGHT] = "light",       [SCHEMA_TEXTURE] = "texture",
-        [SCHEMA_SURFACE] = "surface", [SCHEMA_MATERIAL] = "material",
+        [SCHEMA_CAMERA] = "camera",     [SCHEMA_SETTINGS] = "settings", [SCHEMA_LIGHT] = "light",
+        [SCHEMA_TEXTURE] = "texture",   [SCHEMA_SURFACE] = "surface",   [SCHEMA_PLACE] = "group",
+        [SCHEMA_MATERIAL] = "material",
     };
     return names[group];
 }
@@ -177,6 +183,8 @@ const char *schema_type_name(enum schema_type type)
         [TYPE_VECTOR_OR_PAIR] = "two or three numbers",
         [TYPE_SCALE] = "three factors",
         [TYPE_COLOUR] = "a colour",
+        [TYPE_ROTATION] = "three angles",
+        [TYPE_MATRIX] = "a list of twelve numbers",
         [TYPE_SIZE] = "two whole numbers",
         [TYPE_POINTS] = "a list of points",
         [TYPE_WORD] = "a word",

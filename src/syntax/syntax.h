@@ -15,6 +15,11 @@ struct encoding_problem {
 };
 bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem);
 
+/* The file's text, decoded, as a source; NULL after reporting.  A file that cannot be read is a `code`
+ * at `span`. */
+const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
+                                 struct span span, struct diag *diag);
+
 /* True when the text is an XML document: its first character is `<`. */
 bool syntax_is_xml(struct str text);
 

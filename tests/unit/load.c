@@ -26,7 +26,7 @@ static bool parse(struct load *l)
 
 static bool eval(struct load *l)
 {
-    struct eval_options options = {.max_objects = SIZE_MAX};
+    struct eval_options options = {.max_objects = 10 * 1000 * 1000, .sources = &l->sources};
     return parse(l) && eval_scene(&l->ast, &options, &l->desc, &l->diag);
 }
 

@@ -157,7 +157,8 @@ START_TEST(tree_agrees_with_brute_force)
 }
 END_TEST
 
-static void batch_of(struct ray_batch *batch, const struct ray *rays, uint32_t n, bool common_origin)
+static void batch_of(struct ray_batch *batch, const struct ray *rays, uint32_t n,
+                     bool common_origin)
 {
     memset(batch, 0, sizeof *batch);
     batch->n = n;

@@ -110,26 +110,48 @@ START_TEST(frames_in_words)
     load_text(&l, "it", "chair\nring\n\"a.wrt\" i\n");
     const struct diag_frame include = {NULL, span_in(&l, 11, 18), DIAG_FRAME_INCLUDE, 0};
     const struct diag_frame use = {&include, span_in(&l, 0, 5), DIAG_FRAME_USE, 0};
-    const struct diag_frame round = {&use, span_in(&l, 19, 20), DIAG_FRAME_ROUND, 0.5};
-    const struct diag_frame call = {&round, span_in(&l, 6, 10), DIAG_FRAME_CALL, 0};
+    struct diag_frame round = {&use, span_in(&l, 19, 20), DIAG_FRAME_ROUND, 0.5};
+    const struct diag_frame item = {&round, span_in(&l, 19, 20), DIAG_FRAME_ITEM, 7};
+    const struct diag_frame call = {&item, span_in(&l, 6, 10), DIAG_FRAME_CALL, 0};
+    const struct diag_frame again = {&call, span_in(&l, 6, 10), DIAG_FRAME_CALL, 0};
     l.diag.frame = &call;
-    for (int i = 0; i < 3; i++) /* one finding, then two repeats */
+    for (int i = 0; i < 3; i++, round.number++) /* one finding, then two repeats */
         diag_note(diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "m %d", i), "n");
+    l.diag.frame = &again;
+    ck_assert_ptr_eq(diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "m"), &l.diag.spare);
     l.diag.frame = NULL;
-    ck_assert_uint_eq(l.diag.errors, 3);
+    ck_assert_uint_eq(l.diag.errors, 4);
     diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 0, 1), "straight");
     char *text = printed(&l, DIAG_FORMAT_TEXT, DIAG_ERROR);
     ck_assert_str_eq(text, "it:1:1: error: m 0 [E010-syntax]\n"
                            "    1 | chair\n      | ^\n"
                            "note: n\n"
                            "note: in ring(...) called at it:2:1\n"
+                           "note: in 'for' with item 7 as i at it:3:9\n"
                            "note: in 'for' with i = 0.5 at it:3:9\n"
                            "note: in chair(...) used at it:1:1\n"
                            "note: in \"a.wrt\" included at it:3:1\n"
-                           "note: the same was found 2 more times\n"
+                           "note: the same was found 3 more times\n"
                            "it:1:1: error: straight [E010-syntax]\n"
                            "    1 | chair\n      | ^\n");
     free(text);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(ways_to_one_place_are_told_apart)
+{
+    struct load l;
+    load_text(&l, "it", "a b");
+    const struct diag_frame a = {NULL, span_in(&l, 0, 1), DIAG_FRAME_CALL, 0};
+    const struct diag_frame b = {NULL, span_in(&l, 2, 3), DIAG_FRAME_CALL, 0};
+    l.diag.frame = &a;
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 1, 2), "m");
+    l.diag.frame = &b;
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 1, 2), "m");
+    diag_report(&l.diag, DIAG_SYNTAX, span_in(&l, 1, 3), "m");
+    diag_report(&l.diag, DIAG_TOO_DEEP, span_in(&l, 1, 3), "m");
+    ck_assert_uint_eq(l.diag.entries.n, 4);
     load_free(&l);
 }
 END_TEST
@@ -233,6 +255,7 @@ Suite *diag_suite(void)
     tcase_add_loop_test(t, text_of_finding, 0, COUNT(renderings));
     tcase_add_test(t, labels_notes_and_order);
     tcase_add_test(t, frames_in_words);
+    tcase_add_test(t, ways_to_one_place_are_told_apart);
     tcase_add_test(t, deep_frames_are_cut);
     tcase_add_test(t, messages_are_tame);
     suite_add_tcase(s, t);

@@ -165,9 +165,12 @@ static void make_scene(struct scene *s, double scale, bool glow)
 
 static struct render_options whole_picture(const struct scene *s)
 {
-    struct render_options o = {
-        .isa = isa_best(),
-        .width = s->camera.width, .height = s->camera.height, .grid = 1, .depth = 5, .threads = 1};
+    struct render_options o = {.isa = isa_best(),
+                               .width = s->camera.width,
+                               .height = s->camera.height,
+                               .grid = 1,
+                               .depth = 5,
+                               .threads = 1};
     o.crop.x1 = o.width;
     o.crop.y1 = o.height;
     return o;

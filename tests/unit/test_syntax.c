@@ -31,6 +31,7 @@ static const char *const kind_names[] = {
     [AST_PROPERTY] = "property",
     [AST_ATTRIBUTE] = "attribute",
     [AST_BODY] = "body",
+    [AST_LABEL] = "label",
     [AST_PARAMETER] = "parameter",
     [AST_ARGUMENT] = "argument",
     [AST_MEMBER] = "member",

@@ -13,6 +13,7 @@ int main(void)
     srunner_add_suite(runner, schema_suite());
     srunner_add_suite(runner, syntax_suite());
     srunner_add_suite(runner, eval_suite());
+    srunner_add_suite(runner, language_suite());
     srunner_add_suite(runner, lower_suite());
     srunner_add_suite(runner, export_suite());
     srunner_add_suite(runner, image_suite());

@@ -1,0 +1,31 @@
+/* Scene files as sources. */
+#include "config.h"
+
+#include "syntax/syntax.h"
+
+#include "base/file.h"
+
+const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
+                                 struct span span, struct diag *diag)
+{
+    const char *name = strcmp(path, "-") == 0 ? "<stdin>" : path;
+    char *text;
+    size_t n;
+    const char *reason = file_read(path, &text, &n);
+    if (reason) {
+        diag_report(diag, code, span, "could not read '%s': %s", name, reason);
+        return NULL;
+    }
+    struct encoding_problem problem;
+    bool right = syntax_decode(&text, &n, &problem);
+    const struct source *s = srcmap_add(sources, name, text, n);
+    if (!s) {
+        diag_report(diag, code, span, "'%s' is too large", name);
+        return NULL;
+    }
+    if (right)
+        return s;
+    uint32_t at = s->base + (uint32_t)problem.offset;
+    diag_report(diag, problem.code, (struct span){at, at + 1}, "%s", problem.message);
+    return NULL;
+}
