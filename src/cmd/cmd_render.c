@@ -26,8 +26,7 @@ struct run {
     struct progress progress;
 };
 
-/* The scene's name with the suffix of a picture, in the current folder. */
-static char *default_output(const char *scene)
+char *default_picture(const char *scene)
 {
     const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
     if (strcmp(name, "-") == 0)
@@ -222,7 +221,7 @@ int command_render(const struct options *o)
     if (o->scenes.n != 1)
         return o->scenes.n ? usage_error("render takes one scene, but %zu are given", o->scenes.n)
                            : usage_error("render: no scene given");
-    char *by_default = o->output ? NULL : default_output(o->scenes.at[0]);
+    char *by_default = o->output ? NULL : default_picture(o->scenes.at[0]);
     struct run r = {.options = o, .output = o->output ? o->output : by_default};
     int status = run_steps(&r);
     picture_free(r.picture);

@@ -118,6 +118,15 @@ static bool take_crop(const char *text, struct options *out)
     return out->cropped = true;
 }
 
+static bool take_pixel(const char *text, struct options *out)
+{
+    if (!read_list(text, ',', 2, out->pixel)) {
+        usage_error("--pixel takes X,Y, not '%s'", text);
+        return false;
+    }
+    return out->behind = true;
+}
+
 /* The number of a word in a list that ends with NULL; -1 after reporting another. */
 static int take_word(enum opt o, const char *text, const char *const *words)
 {
@@ -257,6 +266,12 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return out->quiet = true;
     case OPT_VERBOSE:
         return out->verbose = true;
+    case OPT_JSON:
+        return out->json = true;
+    case OPT_DEPS:
+        return out->deps = true;
+    case OPT_PIXEL:
+        return take_pixel(text, out);
     case OPT_MAN:
         return out->manual = true;
     case OPT_HELP:

@@ -17,11 +17,12 @@ enum {
     FOR_DOC = 8,
     FOR_FMT = 16,
     FOR_CONVERT = 64,
-    FOR_ALL = 127
+    FOR_INFO = 128,
+    FOR_ALL = 255
 };
 
 /* Those that read a scene, and those that report on what they read. */
-enum { FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_CONVERT, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
+enum { FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_CONVERT | FOR_INFO, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
@@ -43,7 +44,8 @@ struct options {
     enum diag_format format;
     bool in_place, check, difference;
     bool jitter, brute_force, no_skip, quiet, verbose;
-    bool manual;
+    bool manual, json, deps, behind;
+    uint32_t pixel[2];
 };
 
 /* The exit status of wrong usage. */

@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <sys/resource.h>
 
-static uint64_t peak_rss_bytes(void)
+uint64_t stats_peak_rss(void)
 {
     struct rusage usage;
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
@@ -49,7 +49,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
                          "refraction", (json_int_t)r->refraction, "shadow_rays_skipped",
                          (json_int_t)r->shadow_skipped, "surfaces", (json_int_t)scene->surfaces.n,
                          "triangles", (json_int_t)count_triangles(scene), "skipped",
-                         skipped_names(scene), "peak_rss_bytes", (json_int_t)peak_rss_bytes()),
+                         skipped_names(scene), "peak_rss_bytes", (json_int_t)stats_peak_rss()),
                o);
 }
 
@@ -75,7 +75,7 @@ static void render_text(const struct run_stats *s, const struct options *o,
     fprintf(stderr, "skipped    %llu shadow rays", (unsigned long long)r->shadow_skipped);
     for (size_t i = 0; i < scene->skipped.n; i++)
         fprintf(stderr, ", %s", scene->skipped.at[i]);
-    fprintf(stderr, "\nmemory     %.1f MB at most\n", (double)peak_rss_bytes() * 1e-6);
+    fprintf(stderr, "\nmemory     %.1f MB at most\n", (double)stats_peak_rss() * 1e-6);
 }
 
 void stats_print_render(const struct run_stats *s, const struct options *o,
@@ -95,12 +95,12 @@ void stats_print_check(const struct check_stats *s, const struct options *o)
                              (json_int_t)s->lights, "materials", (json_int_t)s->materials,
                              "textures", (json_int_t)s->textures, "errors", (json_int_t)s->errors,
                              "warnings", (json_int_t)s->warnings, "peak_rss_bytes",
-                             (json_int_t)peak_rss_bytes()),
+                             (json_int_t)stats_peak_rss()),
                    o);
     else if (o->stats == STATS_TEXT)
         fprintf(
             stderr,
             "%s: %zu surfaces, %zu lights, %zu materials, %zu textures; %.4f s, %.1f MB at most\n",
             s->scene, s->surfaces, s->lights, s->materials, s->textures, s->parse_s,
-            (double)peak_rss_bytes() * 1e-6);
+            (double)stats_peak_rss() * 1e-6);
 }

@@ -6,6 +6,9 @@
 #include "lower/lower.h"
 #include "render/render.h"
 
+/* The most memory this process has had so far, in bytes. */
+uint64_t stats_peak_rss(void);
+
 struct run_stats {
     double parse_s, load_s, write_s, total_s;
     uint32_t width, height;

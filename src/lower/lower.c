@@ -98,8 +98,11 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
         lower_light(&l, d->lights.at[i]);
     }
     for (size_t i = 0; i < d->surfaces.n; i++) {
+        size_t first = l.scene->surfaces.n;
         diag->frame = d->surfaces.at[i]->frame;
         lower_surface(&l, d->surfaces.at[i]);
+        for (size_t k = first; k < l.scene->surfaces.n; k++)
+            l.scene->surfaces.at[k].described = (uint32_t)i;
     }
     diag->frame = NULL;
     note_unused(&l);

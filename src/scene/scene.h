@@ -73,6 +73,7 @@ struct surface {
     const struct triangle_corners *normal_corners; /* normals by face instead; or NULL */
     const struct vec2 *uvs;     /* three a primitive, or NULL */
     struct span span;           /* where the scene text says it */
+    uint32_t described;         /* its number among the description's surfaces */
 };
 
 enum light_kind { LIGHT_POINT, LIGHT_AREA };

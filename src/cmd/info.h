@@ -1,0 +1,95 @@
+/* What `wrt info` tells: gathered here, said as text or JSON (internal to src/cmd). */
+#ifndef WRT_CMD_INFO_H
+#define WRT_CMD_INFO_H
+
+#include "cmd/frontend.h"
+#include "lower/lower.h"
+
+#include <jansson.h>
+
+struct info {
+    const struct options *options;
+    struct frontend frontend;
+    struct lowered lowered;
+};
+
+/* ---- cmd_info.c ---- */
+
+/* Of longer lists only the beginning is told, unless --verbose is given. */
+enum { INFO_LISTED = 100 };
+
+#define INFO_COUNT_LIST(X)                                                \
+    X(SURFACES, "surfaces")                                               \
+    X(SPHERES, "spheres")                                                 \
+    X(CYLINDERS, "cylinders")                                             \
+    X(TRIANGLES, "triangles") X(VERTICES, "vertices") X(LIGHTS, "lights") \
+        X(MATERIALS, "materials") X(TEXTURES, "textures")
+
+#define INFO_PART_LIST(X)                                                     \
+    X(TEXT, "text")                                                           \
+    X(TREE, "tree")                                                           \
+    X(DESCRIPTION, "description") X(MESHES, "meshes") X(GEOMETRY, "geometry") \
+        X(PICTURES, "pictures") X(PEAK, "peak")
+
+#define INFO_ID(id, word) INFO_##id,
+enum { INFO_COUNT_LIST(INFO_ID) INFO_COUNTS };
+enum { INFO_PART_LIST(INFO_ID) INFO_PARTS };
+#undef INFO_ID
+
+extern const char *const info_count_words[INFO_COUNTS], *const info_part_words[INFO_PARTS];
+extern const char *const info_frame_words[]; /* by enum diag_frame_kind */
+
+struct info_facts {
+    size_t counts[INFO_COUNTS], bytes[INFO_PARTS];
+    struct box bounds;
+    bool empty; /* nothing to have bounds */
+};
+struct info_facts info_facts(const struct info *i);
+
+/* ---- info_tree.c: the surfaces, in the loops, templates and files that make them ---- */
+
+/* A surface, or what made some.  What the same words make is one node, counted. */
+struct info_node {
+    struct info_node *next, *children, *last;
+    struct span span;
+    const struct desc_object *object; /* the first such surface; NULL: see frame */
+    const struct diag_frame *frame;
+    size_t count; /* surfaces */
+};
+
+/* The root, which stands for the scene, in the arena. */
+struct info_node *info_tree(const struct desc *d, struct arena *a);
+
+/* ---- info_files.c ---- */
+
+/* Every file the scene needs, each once, beginning with the scene itself; freed by the caller with
+ * info_files_free.  Textures and meshes need not exist. */
+struct info_files {
+    struct arena arena;
+    struct map known;
+    VEC(const char *) paths;
+};
+void info_files(const struct info *i, struct info_files *out);
+void info_files_free(struct info_files *f);
+
+/* ---- info_pixel.c ---- */
+
+/* What the ray of a pixel meets first. */
+struct info_pixel {
+    uint32_t x, y;
+    struct vec3 direction;
+    bool hit;
+    double distance;
+    struct vec3 point, normal;
+    const struct surface *surface;
+    const struct desc_object *object;
+};
+struct info_pixel info_pixel(const struct info *i);
+
+/* ---- info_json.c ---- */
+
+json_t *info_json(const struct info *i);
+json_t *info_files_json(const struct info *i);
+json_t *info_pixel_json(const struct info *i, const struct info_pixel *p);
+
+#endif

@@ -1,0 +1,42 @@
+#include "config.h"
+
+#include "cmd/info.h"
+
+#include "scene/camera.h"
+
+/* Classic's one sample a pixel: its lower left corner. */
+static struct ray ray_of(const struct camera *c, const struct options *o, uint32_t x, uint32_t y)
+{
+    uint32_t width = o->width ? o->width : c->width, height = o->width ? o->height : c->height;
+    struct lens lens = lens_of(c, width, height);
+    double u = (double)x / width, v = (double)(height - 1 - y) / height;
+    return (struct ray){.origin = lens.origin,
+                        .direction = lens_direction(&lens, u, v),
+                        .t_max = RAY_UNBOUNDED,
+                        .from = PRIM_NONE,
+                        .surface = SURFACE_NONE};
+}
+
+struct info_pixel info_pixel(const struct info *i)
+{
+    const struct scene *s = &i->lowered.scene;
+    const struct geometry *g = &s->geometry;
+    uint32_t x = i->options->pixel[0], y = i->options->pixel[1];
+    struct ray ray = ray_of(&s->camera, i->options, x, y);
+    struct ray_frame frame = ray_frame_of(&ray);
+    struct hit hit = hit_none(ray.t_max);
+    struct info_pixel p = {.x = x, .y = y, .direction = ray.direction};
+    for (uint32_t k = 0; k < g->prims.n; k++) /* one ray does not pay for a tree of boxes */
+        geometry_intersect(g, k, &ray, &frame, &hit);
+    if (hit.prim == PRIM_NONE)
+        return p;
+    p.hit = true;
+    p.distance = hit.t;
+    p.surface = &s->surfaces.at[g->prims.at[hit.prim].surface];
+    p.object = i->frontend.desc.surfaces.at[p.surface->described];
+    p.point = geometry_hit_point(g, &ray, &hit, &p.normal);
+    if (p.surface->normals)
+        geometry_weights(g, &ray, &hit);
+    p.normal = surface_normal(s, p.surface, &hit, p.normal);
+    return p;
+}
