@@ -214,7 +214,7 @@ static void print_info(const struct info *i)
 {
     const struct camera *c = &i->lowered.scene.camera;
     printf("%s: model %s, %u x %u pixels\n  camera", i->options->scenes.at[0],
-           i->frontend.desc.model == MODEL_MODERN ? "modern" : "classic", c->width, c->height);
+           schema_model_name(i->frontend.desc.model), c->width, c->height);
     print_place(i, i->frontend.desc.camera->span);
     putchar('\n');
     print_lights(i);

@@ -134,11 +134,10 @@ json_t *info_json(const struct info *i)
     json_object_set_new(camera, "resolution",
                         json_pack("[i, i]", (int)s->camera.width, (int)s->camera.height));
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene",
-                     i->options->scenes.at[0], "model",
-                     d->model == MODEL_MODERN ? "modern" : "classic", "camera", camera, "lights",
-                     objects_json(i, d->lights.at, d->lights.n), "textures", textures_json(s),
-                     "tree", tree_json(i), "counts", counts_json(&f), "bounds", bounds, "memory",
-                     memory_json(&f), "files", info_files_json(i));
+                     i->options->scenes.at[0], "model", schema_model_name(d->model), "camera",
+                     camera, "lights", objects_json(i, d->lights.at, d->lights.n), "textures",
+                     textures_json(s), "tree", tree_json(i), "counts", counts_json(&f), "bounds",
+                     bounds, "memory", memory_json(&f), "files", info_files_json(i));
 }
 
 json_t *info_pixel_json(const struct info *i, const struct info_pixel *p)
