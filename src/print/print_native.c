@@ -296,7 +296,11 @@ static void print_object(struct printing *p, const struct ast_node *n)
     print_token(p, n->name.n);
     if (n->label.n)
         print_name(p, n->label);
-    print_block(p, n->children);
+    const struct ast_node *label =
+        n->children && n->children->kind == AST_LABEL ? n->children : NULL;
+    if (label)
+        print_name(p, label->name);
+    print_block(p, label ? label->next : n->children);
 }
 
 /* A word and the one token behind it. */
