@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Uses of templates may nest this deep. */
-enum { USES_LIMIT = 256 };
+/* Uses of templates may nest this deep; one takes as long as so many calls. */
+enum { USES_LIMIT = 256, STEPS_A_USE = 5 };
 
 /* ---- properties ---- */
 
@@ -352,14 +352,6 @@ static void report_unknown_template(struct eval *e, const struct ast_node *node,
         diag_note(entry, "a surface is written '%.*s { ... }'", STR_ARG(node->name));
 }
 
-static bool uses_itself(const struct eval *e, const struct ast_node *template)
-{
-    for (const struct frame *f = e->frame; f; f = f->outer)
-        if (f->template == template)
-            return true;
-    return false;
-}
-
 /* The template's body, where its own names are seen. */
 static void eval_instance(struct eval *e, const struct binding *b, const struct ast_node *node,
                           const struct arguments *a)
@@ -370,12 +362,13 @@ static void eval_instance(struct eval *e, const struct binding *b, const struct 
     while (body->kind == AST_PARAMETER)
         body = body->next;
     frame_open(e, &frame, DIAG_FRAME_USE, node->name_span);
-    frame.template = b->node;
+    *b->busy = true;
     e->inside = INSIDE_TEMPLATE;
     scope_open(e, &scope, b->home);
     if (bind_arguments(e, b, a))
         eval_statements(e, body->children);
     scope_close(e, outer);
+    *b->busy = false;
     frame_close(e, &frame);
 }
 
@@ -409,8 +402,8 @@ void eval_use(struct eval *e, const struct ast_node *node)
     }
     group_open(e, &g, node, use_members(node));
     eval_use_block(e, g.object, use_members(node));
-    bool right = eval_arguments(e, b, node, &a) && eval_spend(e, 1, node->span);
-    if (uses_itself(e, b->node))
+    bool right = eval_arguments(e, b, node, &a) && eval_spend(e, STEPS_A_USE, node->span);
+    if (*b->busy)
         diag_report(e->diag, DIAG_RECURSION, node->name_span, "'%.*s' uses itself",
                     STR_ARG(node->name));
     else if (e->groups > USES_LIMIT)

@@ -57,6 +57,7 @@ struct binding {
         struct {
             const struct ast_node *node; /* AST_FN, AST_DEFINE */
             struct scope *home;          /* where it was defined */
+            bool *busy;                  /* templates: in use; shared by imported copies */
         };
         const struct builtin *builtin;
     };
@@ -81,8 +82,7 @@ struct scope {
 struct frame {
     struct diag_frame shown; /* for messages; its parent is the outer frame's */
     struct frame *outer;
-    const struct ast_node *template; /* uses: what is used */
-    const struct diag_frame *kept;   /* its copy in the description, once an object needs it */
+    const struct diag_frame *kept; /* its copy in the description, once an object needs it */
 };
 
 /* The transform of a group.  Objects point to it at once; its own part is known when the group
@@ -138,6 +138,9 @@ bool eval_stopped(const struct eval *e);
 
 /* Takes steps from what a scene may cost; false after reporting that it costs too much. */
 bool eval_spend(struct eval *e, size_t steps, struct span span);
+
+/* Memory for a value of any size; NULL after reporting that the scene holds too much. */
+void *eval_alloc(struct eval *e, size_t n, struct span span);
 
 /* One level deeper, for what follows input; false after reporting that it is too deep.  Ends with
  * eval_leave in either case. */

@@ -9,6 +9,9 @@ enum { STEPS_AN_OBJECT = 20, STEPS_LEAST = 1000 * 1000 };
  * bodies: bounds the stack. */
 enum { DEPTH_LIMIT = 8000 };
 
+/* Bytes of a file's lists and strings at one time. */
+#define MEMORY_LIMIT ((size_t)2 << 30)
+
 bool eval_stopped(const struct eval *e)
 {
     return e->stopped || diag_full(e->diag);
@@ -30,9 +33,18 @@ bool eval_spend(struct eval *e, size_t steps, struct span span)
         diag_report(e->diag, DIAG_TOO_COSTLY, span,
                     "evaluation was given up after %zu calls, rounds and items", e->steps);
     diag_note(entry, "a greater --max-objects allows more, %d for each object", STEPS_AN_OBJECT);
-    e->stopped = true;
-    e->out->incomplete = true;
+    e->stopped = e->out->incomplete = true;
     return false;
+}
+
+void *eval_alloc(struct eval *e, size_t n, struct span span)
+{
+    if (n <= MEMORY_LIMIT && e->scratch->bytes <= MEMORY_LIMIT - n)
+        return arena_alloc(e->scratch, n);
+    diag_report(e->diag, DIAG_TOO_COSTLY, span,
+                "the lists and strings at hand take more than %zu MB", MEMORY_LIMIT >> 20);
+    e->stopped = e->out->incomplete = true;
+    return NULL;
 }
 
 bool eval_enter(struct eval *e, struct span span)

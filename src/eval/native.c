@@ -70,6 +70,7 @@ static void eval_routine(struct eval *e, const struct ast_node *node)
     b->parameters = n;
     b->node = node;
     b->home = e->scope;
+    b->busy = arena_zalloc(e->scratch, 1, sizeof *b->busy);
 }
 
 /* ---- the model ---- */

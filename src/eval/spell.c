@@ -16,7 +16,7 @@ char *string_reserve(struct eval *e, size_t n, struct span span)
                     STRING_LIMIT);
         return NULL;
     }
-    return eval_spend(e, n / BYTES_A_STEP, span) ? arena_alloc(e->scratch, n) : NULL;
+    return eval_spend(e, n / BYTES_A_STEP, span) ? eval_alloc(e, n, span) : NULL;
 }
 
 static void add_number(struct buffer *b, double x, bool angle, int digits)

@@ -97,7 +97,7 @@ bool list_allowed(struct eval *e, double n, struct span span)
 struct value *list_reserve(struct eval *e, size_t n, struct span span)
 {
     bool right = list_allowed(e, (double)n, span) && eval_spend(e, n, span);
-    return right ? arena_alloc(e->scratch, n * sizeof(struct value)) : NULL;
+    return right ? eval_alloc(e, n * sizeof(struct value), span) : NULL;
 }
 
 static struct value eval_list(struct eval *e, const struct ast_node *node)
