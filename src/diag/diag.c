@@ -97,50 +97,60 @@ static void count(struct diag *d, const struct diag_rule *rule)
         d->exit = rule->exit;
 }
 
-/* Code, place and way to it as a key; they have no padding. */
+/* Code, place and way to it (0: any) as a key; they have no padding. */
 struct key {
     uint64_t sites;
     struct span span;
     uint64_t code;
 };
 
-static struct str key_text(const struct key *k)
+static struct diag_entry *get_framed(const struct diag *d, const struct key *k)
 {
-    return (struct str){(const char *)k, sizeof *k};
+    return map_get(&d->framed, (struct str){(const char *)k, sizeof *k});
 }
 
-/* A finding that only repeats one of another round of a loop or another use is counted; its
- * details go where nobody reads them. */
-static struct diag_entry *find_repeated(struct diag *d, const struct key *k)
+static void set_framed(struct diag *d, const struct key *k, struct diag_entry *e)
 {
-    struct diag_entry *first = d->frame ? map_get(&d->framed, key_text(k)) : NULL;
-    if (!first)
-        return NULL;
-    first->repeats++;
-    entry_free(&d->spare);
-    d->spare = (struct diag_entry){.owner = d};
-    return &d->spare;
+    map_set(&d->framed, (struct str){arena_copy(&d->arena, (const char *)k, sizeof *k), sizeof *k},
+            e);
 }
 
-static void remember_frame(struct diag *d, struct diag_entry *e, const struct key *k)
+/* The entry that a finding inside frames only repeats, in another round of a loop or another use;
+ * NULL when it is new.  After many at one place the ways are not told apart any more. */
+static struct diag_entry *find_repeated(struct diag *d, struct key *k)
+{
+    enum { MANY = 1000 };
+    struct diag_entry *first = d->frame ? get_framed(d, k) : NULL;
+    if (!d->frame || (first && first->ways++ > MANY))
+        return first;
+    k->sites = diag_frame_sites(d->frame);
+    return get_framed(d, k);
+}
+
+static void remember_frame(struct diag *d, struct diag_entry *e, struct key *k)
 {
     if (!d->frame || e == &d->spare)
         return;
-    struct key *kept = arena_alloc(&d->arena, sizeof *kept);
-    *kept = *k;
-    map_set(&d->framed, key_text(kept), e);
     diag_add_frames(e, d->frame);
+    set_framed(d, k, e);
+    k->sites = 0;
+    if (!get_framed(d, k))
+        set_framed(d, k, e);
 }
 
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...)
 {
-    const struct key key = {diag_frame_sites(d->frame), span, code};
+    struct key key = {0, span, code};
     count(d, &diag_rules[code]);
-    struct diag_entry *e = find_repeated(d, &key);
-    if (e)
-        return e;
-    e = take_entry(d);
+    struct diag_entry *first = find_repeated(d, &key);
+    if (first) { /* counted; its details go where nobody reads them */
+        first->repeats++;
+        entry_free(&d->spare);
+        d->spare = (struct diag_entry){.owner = d};
+        return &d->spare;
+    }
+    struct diag_entry *e = take_entry(d);
     va_list args;
     va_start(args, format);
     const char *message = e == &d->spare ? "" : format_text(d, format, args);

@@ -76,6 +76,7 @@ struct diag_entry {
     VEC(struct diag_fixit) fixits;
     VEC(struct diag_label) frames; /* the stack it was found in, innermost first */
     size_t repeats;                /* how often it was found again in other rounds or uses */
+    size_t ways;                   /* how often anything was found at its place inside frames */
     struct diag *owner;
     size_t order; /* of report, to keep sorting stable */
 };
