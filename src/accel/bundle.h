@@ -10,7 +10,7 @@ enum { TARGET_LIST_LIMIT = 32 };
 
 /* All that some rays can hit. */
 struct target_list {
-    bool usable; /* false: too many targets; the list says nothing */
+    bool usable; /* false: too many targets, or an instance; the list says nothing */
     uint32_t n;
     struct target at[TARGET_LIST_LIMIT];
     double nearest[TARGET_LIST_LIMIT]; /* no ray of unit length is shorter to the target */

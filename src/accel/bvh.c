@@ -179,6 +179,19 @@ static void build_nodes(struct builder *w, uint32_t n)
         build_child(w, 0, 1, middle, n, 1);
 }
 
+/* Only those are ever walked that some instance takes whole. */
+static struct accel *build_prototypes(const struct geometry *g, bool brute_force)
+{
+    struct accel *a = g->prototypes.n ? mem_zalloc(g->prototypes.n, sizeof *a) : NULL;
+    for (size_t i = 0; i < g->instances.n; i++) {
+        const struct instance *instance = &g->instances.at[i];
+        struct accel *prototype = &a[instance->prototype];
+        if (instance->only == PRIM_NONE && !prototype->geometry)
+            accel_build(prototype, &g->prototypes.at[instance->prototype]->shapes, brute_force);
+    }
+    return a;
+}
+
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
 {
     uint32_t n = (uint32_t)geometry->prims.n;
@@ -199,7 +212,9 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
                         .target_count = n,
                         .nodes = w.nodes,
                         .node_count = w.node_count,
-                        .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0};
+                        .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0,
+                        .padding = BOX_PADDING * (1 + geometry->worst_growth),
+                        .prototypes = build_prototypes(geometry, brute_force)};
     for (uint32_t i = 0; i < n; i++)
         a->targets[i] = target_of(geometry, w.order[i]);
     free(w.boxes);
@@ -209,6 +224,9 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
 
 void accel_free(struct accel *a)
 {
+    for (size_t i = 0; a->prototypes && i < a->geometry->prototypes.n; i++)
+        accel_free(&a->prototypes[i]);
+    free(a->prototypes);
     free(a->nodes);
     free(a->targets);
     *a = (struct accel){0};

@@ -22,7 +22,9 @@ struct accel {
     uint32_t target_count;
     struct bvh_node *nodes; /* root first; NULL: every primitive is tried */
     uint32_t node_count;
-    double reach; /* largest |coordinate| of the geometry's bounds */
+    double reach;   /* largest |coordinate| of the geometry's bounds */
+    double padding; /* BOX_PADDING, times what instances add to rounding errors */
+    struct accel *prototypes; /* one for each of the geometry's; NULL: there are none */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */

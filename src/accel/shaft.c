@@ -2,8 +2,9 @@
 
 #include "accel/shaft.h"
 
-/* Far more than the rounding errors of the shaft's own arithmetic and a box's padding together. */
-#define SHAFT_PADDING 0x1p-38
+/* Far more than the rounding errors of the shaft's own arithmetic and a box's padding together:
+ * this many times the latter. */
+#define SHAFT_PADDING 16
 
 static double box_reach(struct box b)
 {
@@ -32,7 +33,7 @@ static void make_ready(struct shaft *s, struct vec3 lo_growth, struct vec3 hi_gr
 struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box directions)
 {
     struct shaft s = {.start = origins, .t_max = INFINITY, .endless = true};
-    s.padding = SHAFT_PADDING * (a->reach + box_reach(origins));
+    s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(origins));
     make_ready(&s, directions.lo, directions.hi);
     return s;
 }
@@ -44,7 +45,7 @@ struct shaft shaft_between(const struct accel *a, struct box p, struct box q, do
     struct box end = {vec3_mad(vec3_scale(q.lo, t_max), -on, p.hi),
                       vec3_mad(vec3_scale(q.hi, t_max), -on, p.lo)};
     struct shaft s = {.start = p, .end = box_join(end, q), .t_max = 1, .spawned = true};
-    s.padding = SHAFT_PADDING * (a->reach + box_reach(p) + box_reach(s.end));
+    s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(p) + box_reach(s.end));
     make_ready(&s, vec3_sub(s.end.lo, p.lo), vec3_sub(s.end.hi, p.hi));
     return s;
 }
@@ -133,7 +134,7 @@ static bool add_run(const struct accel *a, const struct shaft *s, uint32_t first
     for (uint32_t i = first; i < first + count; i++) {
         if (!shaft_touches(a, s, a->targets[i]))
             continue;
-        if (list->n == TARGET_LIST_LIMIT)
+        if (list->n == TARGET_LIST_LIMIT || a->targets[i].kind == PRIM_INSTANCE)
             return false;
         list->nearest[list->n] = 0;
         list->at[list->n++] = a->targets[i];

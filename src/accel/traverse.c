@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "accel/bvh.h"
+#include "scene/instance.h"
 
 /* A ray made ready for box tests.  A box's near planes are met from an origin moved forwards by
  * the padding, its far planes from one moved back, which is the box made larger by the padding. */
@@ -12,7 +13,7 @@ struct walk {
 static struct walk walk_along(const struct accel *a, const struct ray *ray)
 {
     struct vec3 o = ray->origin, d = ray->direction;
-    double padding = BOX_PADDING * (a->reach + vec3_largest(o)), largest = vec3_largest(d);
+    double padding = a->padding * (a->reach + vec3_largest(o)), largest = vec3_largest(d);
     double x = copysign(padding, d.x), y = copysign(padding, d.y), z = copysign(padding, d.z);
     return (struct walk){
         {o.x + x, o.y + y, o.z + z},
@@ -40,6 +41,23 @@ static inline bool is_skipped(const struct geometry *g, uint32_t prim, const str
     return ray->surface != SURFACE_NONE && g->prims.at[prim].surface != ray->surface;
 }
 
+static bool find(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                 bool any_hit, struct hit *hit);
+
+/* The best hit of an instance, in its prototype's own tree.  Prototypes hold no instances, so this
+ * is as deep as trees lie in each other. */
+static bool try_instance(const struct accel *a, struct target target, const struct ray *ray,
+                         bool any_hit, struct hit *hit)
+{
+    const struct instance *i = &a->geometry->instances.at[target.index];
+    if (i->only != PRIM_NONE)
+        return geometry_intersect(a->geometry, target.prim, ray, NULL, hit);
+    struct inner_ray inner = instance_ray(i, ray, hit->t);
+    struct hit found = hit_none(hit->t);
+    find(&a->prototypes[i->prototype], &inner.ray, &inner.frame, any_hit, &found);
+    return instance_offer(i, target.prim, &found, hit);
+}
+
 /* The best hit of a run of targets; with any_hit, the first found ends the search. */
 static inline bool try_run(const struct accel *a, uint32_t first, uint32_t count,
                            const struct ray *ray, const struct ray_frame *frame, bool any_hit,
@@ -49,7 +67,10 @@ static inline bool try_run(const struct accel *a, uint32_t first, uint32_t count
         struct target target = a->targets[i];
         if (is_skipped(a->geometry, target.prim, ray))
             continue;
-        if (target_intersect(a->geometry, target, ray, frame, hit) && any_hit)
+        bool met = target.kind == PRIM_INSTANCE
+                       ? try_instance(a, target, ray, any_hit, hit)
+                       : target_intersect(a->geometry, target, ray, frame, hit);
+        if (met && any_hit)
             return true;
     }
     return false;
@@ -119,17 +140,25 @@ static bool any_in_tree(const struct accel *a, const struct ray *ray, const stru
     return false;
 }
 
+/* Whether there is a hit; with any_hit, it is just some one. */
+static bool find(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                 bool any_hit, struct hit *hit)
+{
+    if (!a->nodes)
+        return try_run(a, 0, a->target_count, ray, frame, any_hit, hit) || hit->prim != PRIM_NONE;
+    if (any_hit)
+        return any_in_tree(a, ray, frame, hit);
+    closest_in_tree(a, ray, frame, hit);
+    return hit->prim != PRIM_NONE;
+}
+
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit)
 {
     *hit = hit_none(ray->t_max);
     if (!ray_has_direction(ray))
         return false;
     struct ray_frame frame = ray_frame_of(ray);
-    if (a->nodes)
-        closest_in_tree(a, ray, &frame, hit);
-    else
-        try_run(a, 0, a->target_count, ray, &frame, false, hit);
-    return hit->prim != PRIM_NONE;
+    return find(a, ray, &frame, false, hit);
 }
 
 bool accel_any(const struct accel *a, const struct ray *ray)
@@ -138,7 +167,5 @@ bool accel_any(const struct accel *a, const struct ray *ray)
         return false;
     struct hit hit = hit_none(ray->t_max);
     struct ray_frame frame = ray_frame_of(ray);
-    if (a->nodes)
-        return any_in_tree(a, ray, &frame, &hit);
-    return try_run(a, 0, a->target_count, ray, &frame, true, &hit);
+    return find(a, ray, &frame, true, &hit);
 }

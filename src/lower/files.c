@@ -103,31 +103,40 @@ static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file,
 #endif
 }
 
-const struct mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file)
+const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file)
 {
     const char *path = path_of(l, file);
     uintptr_t known = (uintptr_t)map_get(&l->meshes, str_of(path));
-    if (known)
-        return l->out->meshes.at[known - 1].mesh;
-    struct lower_mesh m = {path, load_mesh(l, file, path)};
-    vec_push(&l->out->meshes, m);
-    map_set(&l->meshes, str_of(path), (void *)(uintptr_t)l->out->meshes.n);
-    return m.mesh;
+    if (!known) {
+        struct lower_mesh m = {path, load_mesh(l, file, path)};
+        vec_push(&l->out->meshes, m);
+        known = l->out->meshes.n;
+        map_set(&l->meshes, str_of(path), (void *)known);
+    }
+    return &l->out->meshes.at[known - 1];
 }
 
 const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *file, size_t faces)
 {
-    const struct source *s = load_source(l, file, path_of(l, file), "UV list");
+    const char *path = path_of(l, file);
+    struct str key = str_of(arena_printf(&l->scene->arena, "%zu %s", faces, path));
+    static struct vec2 unreadable; /* reported once */
+    struct vec2 *known = map_get(&l->uv_lists, key);
+    if (known)
+        return known == &unreadable ? NULL : known;
+    const struct source *s = load_source(l, file, path, "UV list");
     struct vec2 *uvs = NULL;
     size_t first = l->diag->entries.n;
     if (!s || !uv_list_parse(s, faces, &uvs, l->diag)) {
         if (s)
             lower_label_request(l, first, file);
+        map_set(&l->uv_lists, key, &unreadable);
         return NULL;
     }
     size_t n = 3 * faces;
     struct vec2 *kept = arena_zalloc(&l->scene->arena, n, sizeof *kept);
     memcpy(kept, uvs, n * sizeof *kept);
     free(uvs);
+    map_set(&l->uv_lists, key, kept);
     return kept;
 }

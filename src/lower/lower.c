@@ -93,6 +93,7 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
     };
     size_t errors = diag->errors;
     lower_camera(&l);
+    lower_count_meshes(&l);
     for (size_t i = 0; i < d->lights.n; i++) {
         diag->frame = d->lights.at[i]->frame;
         lower_light(&l, d->lights.at[i]);
@@ -110,6 +111,8 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
     free(l.texture_of);
     map_free(&l.images);
     map_free(&l.meshes);
+    map_free(&l.models);
+    map_free(&l.uv_lists);
     return diag->errors == errors;
 }
 

@@ -5,6 +5,16 @@
 #include "base/map.h"
 #include "lower/lower.h"
 
+/* A mesh file in the proportions that surfaces use it in. */
+struct mesh_model {
+    const struct mesh *mesh;
+    struct vec3 ratio;          /* of the model's coordinates to the file's */
+    size_t uses;                /* by surfaces that may be instances */
+    uint32_t prototype;         /* in the scene's geometry; 0: there is none so far */
+    const struct vec3 *normals; /* in the model's space, once asked for */
+    const struct triangle_corners *normal_corners;
+};
+
 struct lowering {
     const struct desc *desc;
     struct srcmap *sources;
@@ -15,6 +25,8 @@ struct lowering {
     uint32_t *texture_of;  /* likewise */
     struct map images;     /* path to struct image, decoded once */
     struct map meshes;     /* path to its number in out->meshes + 1, as a pointer */
+    struct map models;     /* path and ratio to struct mesh_model */
+    struct map uv_lists;   /* path and number of faces to struct vec2 */
 };
 
 /* ---- files.c ---- */
@@ -23,41 +35,59 @@ struct lowering {
  * after errors. */
 uint32_t lower_texture(struct lowering *l, const struct desc_object *texture);
 
-/* The mesh a property names, read when first asked for; NULL after errors.  Borrowed. */
-const struct mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file);
+/* The mesh a property names, read when first asked for.  Valid until the next is read. */
+const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file);
 
 /* What was found in a file since the first entries also shows who asked for the file. */
 void lower_label_request(struct lowering *l, size_t first, const struct desc_value *file);
 
-/* The UV list a property names, in the scene's arena; NULL after errors. */
+/* The UV list a property names, in the scene's arena, read once; NULL after errors. */
 const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *file, size_t faces);
 
 /* ---- surfaces.c ---- */
 
 void lower_surface(struct lowering *l, const struct desc_object *o);
 
-/* Appends the primitives of the shape to g, as those of surface number `surface`.  *first_vertex
- * is the first vertex it added.  False after errors. */
-bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                 uint32_t surface, uint32_t *first_vertex);
+/* The property that asks for texture coordinates, or NULL. */
+const struct desc_prop *lower_wants_uvs(const struct desc_object *o);
 
-/* Whether g can take so much more; reports if not. */
+/* ---- shapes.c ---- */
+
+/* Appends the primitives of the shape, at its place, to g, as those of surface number `surface`.
+ * False after errors. */
+bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometry *g,
+                 uint32_t surface);
+
+/* The same for a ball of these measures before it is placed. */
+bool lower_ball(struct lowering *l, const struct desc_object *o, struct geometry *g,
+                uint32_t surface, struct vec3 center, double radius);
+
+/* The point at the object's place. */
+struct vec3 lower_placed(const struct desc_object *o, struct vec3 p);
+
+/* Each of these reports when the answer is no: whether g can take so much more; whether the
+ * object's place leaves it all its dimensions; whether a point of it is finite. */
 bool lower_fits(struct lowering *l, const struct desc_object *o, const struct geometry *g,
                 size_t more_prims, size_t more_vertices);
+bool lower_has_volume(struct lowering *l, const struct desc_object *o);
+bool lower_is_finite(struct lowering *l, const struct desc_object *o, struct vec3 p);
+
+/* geometry_add_instance; false after reporting. */
+bool lower_add_instance(struct lowering *l, const struct desc_object *o, struct geometry *g,
+                        uint32_t surface, uint32_t prototype, uint32_t only,
+                        const struct affine *to_world);
 
 /* ---- meshes.c ---- */
+
+/* Finds out how often each mesh is used, and reads them: to be called before any is lowered. */
+void lower_count_meshes(struct lowering *l);
+
+/* Lowers a mesh of the scene: its shape, texture coordinates and normals.  False after errors. */
+bool lower_mesh(struct lowering *l, const struct desc_object *o, struct surface *s);
 
 /* As lower_shape, for a mesh. */
 bool lower_mesh_shape(struct lowering *l, const struct desc_object *o, struct geometry *g,
                       uint32_t surface);
-
-/* The texture coordinates of the mesh's faces: of its UV list or else of its file, which owns them
- * then; NULL after errors.  `why` is the property that asks for them. */
-const struct vec2 *lower_mesh_uvs(struct lowering *l, const struct desc_object *o,
-                                  const struct desc_prop *why);
-
-/* Fills in the vertex normals of a mesh whose shape is lowered: the file's, or else its faces'. */
-void lower_mesh_normals(struct lowering *l, const struct desc_object *o, struct surface *s);
 
 /* A debug view, a surface of its own: a white cylinder along each vertex normal, a tenth of its
  * length in radius. */

@@ -3,10 +3,6 @@
 
 #include "lower/lowering.h"
 
-#include <assert.h>
-#include <math.h>
-#include <string.h>
-
 static struct uv_map uv_map_of(const struct desc_object *o)
 {
     struct vec3 offset = desc_vector(o, PROP_UV_OFFSET), scale = desc_vector(o, PROP_UV_SCALE);
@@ -48,90 +44,6 @@ static uint32_t lower_material(struct lowering *l, const struct desc_object *o)
     return l->material_of[o->number] = number;
 }
 
-/* ---- shapes ---- */
-
-bool lower_fits(struct lowering *l, const struct desc_object *o, const struct geometry *g,
-                size_t more_prims, size_t more_vertices)
-{
-    if (more_prims < GEOMETRY_LIMIT - g->prims.n && more_vertices < GEOMETRY_LIMIT - g->vertices.n)
-        return true;
-    diag_report(l->diag, DIAG_SCENE_TOO_LARGE, o->span,
-                "the scene has more triangles or vertices than can be held (limit %u)",
-                GEOMETRY_LIMIT);
-    return false;
-}
-
-static bool add_sphere(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                       uint32_t surface)
-{
-    (void)l;
-    geometry_add_sphere(g, surface, desc_vector(o, PROP_CENTER), desc_number(o, PROP_RADIUS));
-    return true;
-}
-
-/* A height that is not 0 wins over the top; a negative one puts the base above. */
-static bool add_cylinder(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                         uint32_t surface)
-{
-    struct vec3 base = desc_vector(o, PROP_BASE), top = desc_vector(o, PROP_TOP);
-    double height = desc_number(o, PROP_HEIGHT);
-    if (height != 0)
-        top = vec3_add(base, vec3(0, height, 0));
-    if (base.x == top.x && base.y == top.y && base.z == top.z) {
-        diag_report(l->diag, DIAG_DEGENERATE, o->span,
-                    "the cylinder's height is lost in rounding at these coordinates");
-        return false;
-    }
-    geometry_add_cylinder(g, surface, base, top, desc_number(o, PROP_RADIUS));
-    return true;
-}
-
-static bool add_polygon(struct geometry *g, uint32_t surface, const struct desc_value *corners)
-{
-    uint32_t v = (uint32_t)g->vertices.n;
-    for (uint32_t i = 0; i < corners->n; i++)
-        geometry_add_vertex(g, corners->points[i]);
-    geometry_add_triangle(g, surface, v, v + 1, v + 2);
-    if (corners->n == 4)
-        geometry_add_triangle(g, surface, v + 2, v + 3, v);
-    return true;
-}
-
-static bool add_triangle(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                         uint32_t surface)
-{
-    (void)l;
-    return add_polygon(g, surface, desc_get(o, PROP_TRIANGLE_VERTICES));
-}
-
-static bool add_quad(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                     uint32_t surface)
-{
-    (void)l;
-    return add_polygon(g, surface, desc_get(o, PROP_QUAD_VERTICES));
-}
-
-static const struct shape_row {
-    enum surface_kind surface;
-    bool (*add)(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                uint32_t surface);
-} shapes[SCHEMA_KINDS] = {
-    [KIND_SPHERE] = {SURFACE_SPHERE, add_sphere},
-    [KIND_CYLINDER] = {SURFACE_CYLINDER, add_cylinder},
-    [KIND_TRIANGLE] = {SURFACE_TRIANGLE, add_triangle},
-    [KIND_QUAD] = {SURFACE_QUAD, add_quad},
-    [KIND_MESH] = {SURFACE_MESH, lower_mesh_shape},
-};
-
-bool lower_shape(struct lowering *l, const struct desc_object *o, struct geometry *g,
-                 uint32_t surface, uint32_t *first_vertex)
-{
-    enum { MOST = 4 }; /* prims and vertices of any shape but a mesh, which asks for itself */
-    *first_vertex = (uint32_t)g->vertices.n;
-    assert(shapes[o->kind].add);
-    return lower_fits(l, o, g, MOST, MOST) && shapes[o->kind].add(l, o, g, surface);
-}
-
 /* ---- what shading needs beyond the shape ---- */
 
 static const struct vec2 *corner_uvs(struct lowering *l, const struct desc_value *corners)
@@ -146,22 +58,37 @@ static const struct vec2 *corner_uvs(struct lowering *l, const struct desc_value
     return uvs;
 }
 
-/* Spheres and cylinders have their own. */
-static const struct vec2 *surface_uvs(struct lowering *l, const struct desc_object *o,
-                                      const struct desc_prop *why)
+/* Spheres and cylinders have their own; meshes see to theirs. */
+static const struct vec2 *surface_uvs(struct lowering *l, const struct desc_object *o)
 {
     if (o->kind == KIND_TRIANGLE)
         return corner_uvs(l, desc_get(o, PROP_TRIANGLE_UVS));
-    if (o->kind == KIND_QUAD)
-        return corner_uvs(l, desc_get(o, PROP_QUAD_UVS));
-    return o->kind == KIND_MESH ? lower_mesh_uvs(l, o, why) : NULL;
+    return o->kind == KIND_QUAD ? corner_uvs(l, desc_get(o, PROP_QUAD_UVS)) : NULL;
 }
 
-/* The property that asks for texture coordinates, or NULL. */
-static const struct desc_prop *wants_uvs(const struct desc_object *o)
+const struct desc_prop *lower_wants_uvs(const struct desc_object *o)
 {
     const struct desc_prop *map = desc_find(o, PROP_NORMAL_MAP);
-    return map ? map : desc_find(desc_get(o, PROP_MATERIAL)->object, PROP_TEXTURE);
+    const struct desc_value *material = desc_get(o, PROP_MATERIAL);
+    return map || !material ? map : desc_find(material->object, PROP_TEXTURE);
+}
+
+/* Flat surfaces keep to the side their normal is on: mirrored, their corners run the other way
+ * round. */
+static bool is_turned_over(const struct desc_object *o)
+{
+    bool flat = o->kind == KIND_TRIANGLE || o->kind == KIND_QUAD;
+    return flat && o->place && affine_determinant(o->place) < 0;
+}
+
+static enum surface_kind surface_kind_of(enum schema_kind kind)
+{
+    static const uint8_t kinds[SCHEMA_KINDS] = {
+        [KIND_SPHERE] = SURFACE_SPHERE,     [KIND_CYLINDER] = SURFACE_CYLINDER,
+        [KIND_TRIANGLE] = SURFACE_TRIANGLE, [KIND_QUAD] = SURFACE_QUAD,
+        [KIND_MESH] = SURFACE_MESH,
+    };
+    return kinds[kind];
 }
 
 void lower_surface(struct lowering *l, const struct desc_object *o)
@@ -169,26 +96,23 @@ void lower_surface(struct lowering *l, const struct desc_object *o)
     const struct desc_value *map = desc_get(o, PROP_NORMAL_MAP);
     struct geometry *g = &l->scene->geometry;
     struct surface s = {
-        .kind = shapes[o->kind].surface,
+        .kind = surface_kind_of(o->kind),
         .material = lower_material(l, desc_get(o, PROP_MATERIAL)->object),
         .first_prim = (uint32_t)g->prims.n,
+        .first_vertex = (uint32_t)g->vertices.n,
         .normal_map = lower_texture(l, map ? map->object : NULL),
         .uv = uv_map_of(o),
+        .needs_uv = lower_wants_uvs(o) != NULL,
+        .flip = is_turned_over(o),
         .span = o->span,
     };
-    if (!lower_shape(l, o, g, (uint32_t)l->scene->surfaces.n, &s.first_vertex))
+    bool mesh = o->kind == KIND_MESH;
+    if (mesh ? !lower_mesh(l, o, &s) : !lower_shape(l, o, g, (uint32_t)l->scene->surfaces.n))
         return;
     s.prim_count = (uint32_t)g->prims.n - s.first_prim;
-    const struct desc_prop *why = wants_uvs(o);
-    s.needs_uv = why != NULL;
-    if (why)
-        s.uvs = surface_uvs(l, o, why);
-    if (o->kind == KIND_MESH) {
-        s.flip = desc_number(o, PROP_FLIP_NORMALS) != 0;
-        if (desc_number(o, PROP_SMOOTH) > 0)
-            lower_mesh_normals(l, o, &s);
-    }
+    if (s.needs_uv && !mesh)
+        s.uvs = surface_uvs(l, o);
     vec_push(&l->scene->surfaces, s);
-    if (o->kind == KIND_MESH && desc_get(o, PROP_SHOW_NORMALS))
+    if (mesh && desc_get(o, PROP_SHOW_NORMALS))
         lower_normal_cylinders(l, o, &s);
 }

@@ -42,7 +42,7 @@ enum cylinder_part { CYLINDER_BASE, CYLINDER_TOP, CYLINDER_SIDE };
 struct hit {
     double t;
     uint32_t prim; /* number in the geometry, PRIM_NONE: nothing hit */
-    uint32_t part; /* enum cylinder_part */
+    uint32_t part; /* enum cylinder_part; of an instance of a mesh: the triangle within */
     /* triangle: weights of the second and third vertex; geometry_weights works them out */
     double b1, b2;
 };

@@ -70,6 +70,72 @@ double affine_determinant(const struct affine *a)
     return vec3_dot(rows[0], vec3_cross(rows[1], rows[2]));
 }
 
+static struct vec3 column(const struct affine *a, int j)
+{
+    return vec3(a->m[0][j], a->m[1][j], a->m[2][j]);
+}
+
+/* 2^-k, which brings the largest of the numbers between 1/2 and 1. */
+static double to_one(struct vec3 v)
+{
+    int exponent;
+    frexp(vec3_largest(v), &exponent);
+    return ldexp(1, -exponent);
+}
+
+/* Rows and columns are brought to the order of 1 by powers of two, so that only a map that really
+ * flattens has a determinant near 0. */
+bool affine_invert(const struct affine *a, struct affine *out)
+{
+    struct vec3 rows[3], inverse[3];
+    double by_column[3], by_row[3];
+    for (int j = 0; j < 3; j++)
+        by_column[j] = to_one(column(a, j));
+    for (int i = 0; i < 3; i++) {
+        rows[i] =
+            vec3(a->m[i][0] * by_column[0], a->m[i][1] * by_column[1], a->m[i][2] * by_column[2]);
+        by_row[i] = to_one(rows[i]);
+        rows[i] = vec3_scale(rows[i], by_row[i]);
+    }
+    for (int i = 0; i < 3; i++)
+        inverse[i] = vec3_cross(rows[(i + 1) % 3], rows[(i + 2) % 3]);
+    double volume = vec3_dot(rows[0], inverse[0]);
+    if (!(fabs(volume) > 0x1p-48))
+        return false;
+    bool finite = true;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            out->m[i][j] = vec3_at(inverse[j], i) / volume * by_row[j] * by_column[i];
+        finite = finite && isfinite(out->m[i][0] + out->m[i][1] + out->m[i][2]);
+        out->m[i][3] = 0;
+    }
+    struct vec3 back = affine_vector(out, column(a, 3));
+    out->m[0][3] = -back.x;
+    out->m[1][3] = -back.y;
+    out->m[2][3] = -back.z;
+    return finite && isfinite(back.x + back.y + back.z);
+}
+
+/* What products of a few turns may be off by, relative to the factor's square. */
+#define TURN_ROUNDING 0x1p-46
+
+bool affine_is_similarity(const struct affine *a, double *factor)
+{
+    struct vec3 x = column(a, 0), y = column(a, 1), z = column(a, 2);
+    double square = vec3_dot(x, x), rounding = TURN_ROUNDING * square;
+    *factor = x.y == 0 && x.z == 0 ? fabs(x.x) : sqrt(square);
+    return fabs(vec3_dot(y, y) - square) <= rounding && fabs(vec3_dot(z, z) - square) <= rounding &&
+           fabs(vec3_dot(x, y)) <= rounding && fabs(vec3_dot(y, z)) <= rounding &&
+           fabs(vec3_dot(z, x)) <= rounding;
+}
+
+bool affine_keeps_directions(const struct affine *a)
+{
+    const double(*m)[4] = a->m;
+    return m[0][0] > 0 && m[1][1] == m[0][0] && m[2][2] == m[0][0] && m[0][1] == 0 &&
+           m[0][2] == 0 && m[1][0] == 0 && m[1][2] == 0 && m[2][0] == 0 && m[2][1] == 0;
+}
+
 /* Rodrigues' formula. */
 struct vec3 vec3_rotate(struct vec3 v, struct vec3 axis, double degrees)
 {

@@ -4,6 +4,8 @@
 
 #include "math/vec3.h"
 
+#include <stdbool.h>
+
 double sin_degrees(double angle);
 double cos_degrees(double angle);
 
@@ -22,6 +24,25 @@ struct affine affine_times(const struct affine *a, const struct affine *b);
 
 /* Volume of the unit cube's image, negative for a mirror. */
 double affine_determinant(const struct affine *a);
+
+/* False when the map flattens space as far as can be told: its volume is lost in rounding. */
+bool affine_invert(const struct affine *a, struct affine *out);
+
+/* Whether the map is one number times a turn, or times a turn and a mirror, but for rounding
+ * errors; *factor, at least 0, is the number. */
+bool affine_is_similarity(const struct affine *a, double *factor);
+
+/* Whether it only moves, and scales all axes by one factor above 0. */
+bool affine_keeps_directions(const struct affine *a);
+
+/* Where it takes normals: by the transposed inverse, which is given.  Any length. */
+static inline struct vec3 affine_normal(const struct affine *inverse, struct vec3 n)
+{
+    const double(*m)[4] = inverse->m;
+    return vec3(m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
+                m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
+                m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z);
+}
 
 static inline struct vec3 affine_vector(const struct affine *a, struct vec3 v)
 {

@@ -16,7 +16,7 @@ void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force)
     }
     lamp->center = box_center(lamp->box);
     lamp->radius = vec3_length(vec3_sub(lamp->box.hi, lamp->center));
-    if (light->object.prims.n == 1 && light->object.spheres.n == 1) {
+    if (light->object.prims.n == 1 && light->object.prims.at[0].kind == PRIM_SPHERE) {
         lamp->center = light->object.spheres.at[0].center;
         lamp->radius = light->object.spheres.at[0].radius;
     }

@@ -105,13 +105,13 @@ double cylinder_distance(const struct cylinder *c, const struct seen_cylinder *s
     return s.t[end];
 }
 
-bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
+bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p, double reach)
 {
     const struct cylinder *c = cylinder_at(g, prim);
     struct vec3 m = vec3_sub(p, c->base), w = cylinder_cross(m, c->axis);
     double z = vec3_dot(m, c->axis), r2 = c->radius * c->radius;
     double power = vec3_dot(w, w) - r2;
-    double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + reach_of(c));
+    double rounding = SPAWN_TOLERANCE * (reach + reach_of(c));
     if (z < -rounding || z > c->height + rounding || power > 2 * c->radius * rounding)
         return false;
     return power >= -2 * c->radius * rounding || z <= rounding || z >= c->height - rounding;

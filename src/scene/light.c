@@ -35,7 +35,7 @@ static void grid_axis_free(struct grid_axis *a)
 static bool lies_on_object(const struct geometry *object, struct vec3 p)
 {
     for (uint32_t i = 0; i < object->prims.n; i++)
-        if (geometry_lies_on(object, i, p))
+        if (geometry_lies_on(object, i, p, vec3_largest(p)))
             return true;
     return false;
 }
@@ -43,7 +43,7 @@ static bool lies_on_object(const struct geometry *object, struct vec3 p)
 /* Deep enough inside a sphere that no rounding error lets a ray through p miss it. */
 static bool lies_inside(const struct geometry *object, struct vec3 p)
 {
-    if (object->prims.n != 1 || object->spheres.n != 1)
+    if (object->prims.n != 1 || object->prims.at[0].kind != PRIM_SPHERE)
         return false;
     const struct sphere *s = &object->spheres.at[0];
     double reach = vec3_largest(s->center) + s->radius;

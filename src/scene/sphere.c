@@ -15,10 +15,10 @@ struct box sphere_bounds(const struct geometry *g, uint32_t prim)
     return (struct box){vec3_sub(s->center, r), vec3_add(s->center, r)};
 }
 
-bool sphere_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
+bool sphere_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p, double reach)
 {
     const struct sphere *s = sphere_at(g, prim);
-    return sphere_power(s, vec3_sub(p, s->center), vec3_largest(p), SPAWN_TOLERANCE) == 0;
+    return sphere_power(s, vec3_sub(p, s->center), reach, SPAWN_TOLERANCE) == 0;
 }
 
 struct vec3 sphere_hit_point(const struct geometry *g, const struct ray *ray, const struct hit *hit,

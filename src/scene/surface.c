@@ -36,41 +36,59 @@ static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)
     return (struct vec2){z <= 0 ? -(0.5 + turn) : -turn, clamp(along / c->height, 0, 1)};
 }
 
+/* The triangle's number within its surface, to which normals and texture coordinates belong. */
+static size_t face_of(const struct surface *surface, const struct spot *spot)
+{
+    return spot->instance ? spot->prim : spot->prim - surface->first_prim;
+}
+
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p)
 {
-    const struct geometry *g = &s->geometry;
-    const struct prim *prim = &g->prims.at[hit->prim];
-    if (prim->kind == PRIM_SPHERE)
-        return sphere_uv(&g->spheres.at[prim->index], p);
-    if (prim->kind == PRIM_CYLINDER)
-        return cylinder_uv(&g->cylinders.at[prim->index], p);
+    struct spot spot = geometry_spot(&s->geometry, hit);
+    struct prim prim = spot.geometry->prims.at[spot.prim];
+    if (spot.instance)
+        p = affine_point(&spot.instance->to_shape, p);
+    if (prim.kind == PRIM_SPHERE)
+        return sphere_uv(&spot.geometry->spheres.at[prim.index], p);
+    if (prim.kind == PRIM_CYLINDER)
+        return cylinder_uv(&spot.geometry->cylinders.at[prim.index], p);
     if (surface->uvs == NULL)
         return (struct vec2){0, 0};
-    const struct vec2 *uv = surface->uvs + 3 * (size_t)(hit->prim - surface->first_prim);
+    const struct vec2 *uv = surface->uvs + 3 * face_of(surface, &spot);
     double b0 = 1 - hit->b1 - hit->b2;
     return (struct vec2){b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
                          b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y};
 }
 
 /* Where the vertex normals cancel out, the face's own is taken. */
-static struct vec3 smooth_normal(const struct geometry *g, const struct surface *surface,
+static struct vec3 smooth_normal(const struct surface *surface, const struct spot *spot,
                                  const struct hit *hit)
 {
-    const struct triangle *t = &g->triangles.at[g->prims.at[hit->prim].index];
+    const struct geometry *g = spot->geometry;
+    const struct triangle *t = &g->triangles.at[g->prims.at[spot->prim].index];
     const struct vec3 *normals = surface->normals;
     const struct triangle_corners *own = surface->normal_corners;
-    const uint32_t *at = own ? own[hit->prim - surface->first_prim].at : t->vertex;
-    uint32_t first = own ? 0 : surface->first_vertex;
+    const uint32_t *at = own ? own[face_of(surface, spot)].at : t->vertex;
+    uint32_t first = own || spot->instance ? 0 : surface->first_vertex;
     struct vec3 n = vec3_scale(normals[at[0] - first], 1 - hit->b1 - hit->b2);
     n = vec3_mad(n, hit->b1, normals[at[1] - first]);
     n = vec3_mad(n, hit->b2, normals[at[2] - first]);
-    return vec3_largest(n) > 0 ? vec3_normalize(n) : t->normal;
+    bool cancelled = !(vec3_largest(n) > 0);
+    if (cancelled)
+        n = t->normal;
+    if (spot->instance)
+        n = affine_normal(&spot->instance->to_shape, n);
+    return cancelled && !spot->instance ? n : vec3_normalize(n);
 }
 
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
                            const struct hit *hit, struct vec3 geometric)
 {
-    struct vec3 n = surface->normals ? smooth_normal(&s->geometry, surface, hit) : geometric;
+    struct vec3 n = geometric;
+    if (surface->normals) {
+        struct spot spot = geometry_spot(&s->geometry, hit);
+        n = smooth_normal(surface, &spot, hit);
+    }
     return surface->flip ? vec3_neg(n) : n;
 }

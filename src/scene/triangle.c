@@ -1,5 +1,6 @@
 #include "config.h"
 
+#include "scene/instance.h"
 #include "scene/intersect.h"
 #include "scene/shape.h"
 
@@ -97,10 +98,10 @@ double triangle_distance(const struct geometry *g, const struct triangle *tri,
 }
 
 /* On the plane, and inside of each edge or as near to it as rounding errors reach. */
-bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
+bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p, double reach)
 {
     const struct triangle *t = triangle_at(g, prim);
-    double rounding = SPAWN_TOLERANCE * (vec3_largest(p) + t->reach);
+    double rounding = SPAWN_TOLERANCE * (reach + t->reach);
     if (fabs(vec3_dot(t->normal, vec3_sub(corner_at(g, t, 0), p))) > rounding)
         return false;
     for (int i = 0; i < 3; i++) {
@@ -115,10 +116,12 @@ bool triangle_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p)
 /* From plain products, unless these are so much larger than the area that rounding would show. */
 void geometry_weights(const struct geometry *g, const struct ray *ray, struct hit *hit)
 {
-    const struct triangle *t = triangle_at(g, hit->prim);
+    struct spot spot = geometry_spot(g, hit);
+    const struct triangle *t = triangle_at(spot.geometry, spot.prim);
+    struct ray own = spot.instance ? instance_ray(spot.instance, ray, hit->t).ray : *ray;
     struct ray_frame f;
-    ray_frame_init(&f, ray, false, true);
-    struct seen_triangle seen = triangle_seen(g, t, ray->origin);
+    ray_frame_init(&f, &own, false, true);
+    struct seen_triangle seen = triangle_seen(spot.geometry, t, own.origin);
     struct point2 a = triangle_sheared(seen.a, &f, f.axis),
                   b = triangle_sheared(seen.b, &f, f.axis);
     struct point2 c = triangle_sheared(seen.c, &f, f.axis);
