@@ -13,7 +13,10 @@ uint64_t stats_peak_rss(void)
 
 static size_t count_triangles(const struct scene *s)
 {
-    return s->geometry.triangles.n;
+    size_t n = s->geometry.triangles.n;
+    for (size_t i = 0; i < s->geometry.prototypes.n; i++)
+        n += s->geometry.prototypes.at[i]->shapes.triangles.n;
+    return n;
 }
 
 static json_t *skipped_names(const struct scene *s)

@@ -49,17 +49,6 @@ static void note_unused(struct lowering *l)
     }
 }
 
-static bool has_places(const struct desc *d)
-{
-    for (size_t i = 0; i < d->lights.n; i++)
-        if (d->lights.at[i]->place)
-            return true;
-    for (size_t i = 0; i < d->surfaces.n; i++)
-        if (d->surfaces.at[i]->place)
-            return true;
-    return false;
-}
-
 /* What the front end reads and the tracer does not know. */
 static bool is_available(const struct desc *d, struct diag *diag)
 {
@@ -70,10 +59,7 @@ static bool is_available(const struct desc *d, struct diag *diag)
         diag_note(e, "a scene that names no model is modern; 'model classic' is the other");
         return false;
     }
-    if (has_places(d))
-        diag_report(diag, DIAG_MODEL, d->model_span,
-                    "groups that move, turn or scale are not available in this version");
-    return !has_places(d);
+    return true;
 }
 
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,

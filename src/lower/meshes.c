@@ -19,16 +19,16 @@ enum { COPY_LIMIT = 65536 };
 
 /* In classic, as in the original, normals are made after the mesh's own scale; elsewhere a mesh is
  * made first and then scaled, as groups do it.  Even scales make no difference. */
-static struct vec3 ratio_of(const struct lowering *l, const struct desc_object *o)
+static struct vec3 ratio_of(const struct desc_object *o)
 {
     struct vec3 scale = desc_vector(o, PROP_MESH_SCALE);
     bool even = scale.x > 0 && scale.x == scale.y && scale.y == scale.z;
-    return l->desc->model == MODEL_MODERN || even ? vec3_all(1) : scale;
+    return o->model == SCHEMA_MODERN || even ? vec3_all(1) : scale;
 }
 
-static struct affine map_of(const struct lowering *l, const struct desc_object *o)
+static struct affine map_of(const struct desc_object *o)
 {
-    struct vec3 ratio = ratio_of(l, o), scale = desc_vector(o, PROP_MESH_SCALE);
+    struct vec3 ratio = ratio_of(o), scale = desc_vector(o, PROP_MESH_SCALE);
     scale = vec3(scale.x / ratio.x, scale.y / ratio.y, scale.z / ratio.z);
     struct affine by = affine_scaling(scale);
     struct affine to = affine_translation(desc_vector(o, PROP_MESH_POSITION));
@@ -39,7 +39,7 @@ static struct affine map_of(const struct lowering *l, const struct desc_object *
 static struct mesh_model *model_of(struct lowering *l, const struct desc_object *o)
 {
     struct arena *arena = &l->scene->arena;
-    struct vec3 ratio = ratio_of(l, o);
+    struct vec3 ratio = ratio_of(o);
     const struct lower_mesh *file = lower_mesh_file(l, desc_get(o, PROP_MESH_FILE));
     const char *key = arena_printf(arena, "%a %a %a %s", ratio.x, ratio.y, ratio.z, file->path);
     struct mesh_model *model = map_get(&l->models, str_of(key));
@@ -275,7 +275,7 @@ static bool is_smooth(const struct desc_object *o)
 static bool lower_copy(struct lowering *l, const struct desc_object *o,
                        const struct mesh_model *model, struct surface *s)
 {
-    struct affine map = map_of(l, o);
+    struct affine map = map_of(o);
     if (!lower_mesh_shape(l, o, &l->scene->geometry, (uint32_t)l->scene->surfaces.n))
         return false;
     if (is_smooth(o))
@@ -288,7 +288,7 @@ static bool lower_copy(struct lowering *l, const struct desc_object *o,
 static bool lower_instance(struct lowering *l, const struct desc_object *o,
                            struct mesh_model *model, struct surface *s)
 {
-    struct affine map = map_of(l, o);
+    struct affine map = map_of(o);
     if (is_smooth(o))
         s->normals = model->normals;
     return make_prototype(l, o, model) &&
@@ -358,7 +358,7 @@ void lower_normal_cylinders(struct lowering *l, const struct desc_object *o,
         .kind = MATERIAL_LAMBERT, .diffuse = {1, 1, 1}, .texture = TEXTURE_NONE};
     struct geometry *g = &l->scene->geometry;
     struct mesh_model *model = model_of(l, o);
-    struct affine map = map_of(l, o);
+    struct affine map = map_of(o);
     find_normals(l, model);
     size_t most = model->normal_corners ? 3 * model->mesh->faces.n : model->mesh->points.n;
     if (!model->normals || !lower_fits(l, o, g, most, 0))

@@ -134,6 +134,8 @@ static bool add_cylinder(struct lowering *l, const struct desc_object *o, struct
         base = lower_placed(o, base);
         top = lower_placed(o, top);
     }
+    if (!lower_is_finite(l, o, base) || !lower_is_finite(l, o, top))
+        return false;
     if (base.x == top.x && base.y == top.y && base.z == top.z) {
         diag_report(l->diag, DIAG_DEGENERATE, o->span,
                     "the cylinder's height is lost in rounding at these coordinates");
@@ -141,8 +143,7 @@ static bool add_cylinder(struct lowering *l, const struct desc_object *o, struct
     }
     if (!round)
         return add_elliptic_cylinder(l, o, g, surface, base, top);
-    if (!lower_is_finite(l, o, base) || !lower_is_finite(l, o, top) ||
-        !has_length(l, o, radius * factor))
+    if (!has_length(l, o, radius * factor))
         return false;
     geometry_add_cylinder(g, surface, base, top, radius * factor);
     return true;

@@ -9,11 +9,12 @@ static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_
                                  struct hit *hit)
 {
     const struct surface *surface = &t->scene->surfaces.at[crossed];
-    if (surface->prim_count == 1) {
+    const struct geometry *g = &t->scene->geometry;
+    if (surface->prim_count == 1 && g->prims.at[surface->first_prim].kind != PRIM_INSTANCE) {
         struct ray_frame frame = ray_frame_of(&ray);
         *hit = hit_none(ray.t_max);
         return ray_has_direction(&ray) &&
-               geometry_intersect(&t->scene->geometry, surface->first_prim, &ray, &frame, hit);
+               geometry_intersect(g, surface->first_prim, &ray, &frame, hit);
     }
     ray.surface = crossed;
     return accel_closest(&t->accel, &ray, hit);
@@ -70,7 +71,7 @@ static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, u
             vec3_put(&shapes->along, k, c->axis);
             shapes->radius[k] = c->radius;
             shapes->height[k] = c->height;
-        } else {
+        } else if (prim.kind == PRIM_TRIANGLE) {
             const struct triangle *t = &g->triangles.at[prim.index];
             vec3_put(&shapes->at, k, g->vertices.at[t->vertex[0]]);
             vec3_put(&shapes->along, k, t->normal);
@@ -162,6 +163,28 @@ static void gather_points(struct worker *w, const struct ray_batch *rays)
         gather_any(w, rays);
 }
 
+/* Points on instances, which the kernels know nothing of. */
+static void find_points_on_instances(struct worker *w)
+{
+    const struct scene *scene = w->tracer->scene;
+    struct shade_batch *points = &w->points;
+    const struct hit_shapes *shapes = &w->shapes;
+    for (uint32_t k = shapes->first[PRIM_INSTANCE]; k < shapes->first[PRIM_INSTANCE + 1]; k++) {
+        struct ray ray = {.origin = vec3_get(&shapes->origin, k),
+                          .direction = vec3_get(&points->incoming, k)};
+        struct hit hit = {
+            .t = points->t[k], .prim = points->prim[k], .part = (uint32_t)shapes->part[k]};
+        struct vec3 normal;
+        vec3_put(&points->p, k, geometry_hit_point(&scene->geometry, &ray, &hit, &normal));
+        vec3_put(&points->normal, k, normal);
+        if (!interpolates(&scene->surfaces.at[points->surface[k]]))
+            continue;
+        geometry_weights(&scene->geometry, &ray, &hit);
+        points->b1[k] = hit.b1;
+        points->b2[k] = hit.b2;
+    }
+}
+
 /* ---- their surfaces -------------------------------------------------------------------------- */
 
 static void add_textured(struct textured *t, uint32_t point, uint32_t texture,
@@ -193,8 +216,11 @@ static void apply_surface(struct worker *w, uint32_t k, const struct surface *su
 {
     const struct scene *scene = w->tracer->scene;
     struct shade_batch *points = &w->points;
-    struct hit hit = {
-        .t = points->t[k], .prim = points->prim[k], .b1 = points->b1[k], .b2 = points->b2[k]};
+    struct hit hit = {.t = points->t[k],
+                      .prim = points->prim[k],
+                      .part = (uint32_t)w->shapes.part[k],
+                      .b1 = points->b1[k],
+                      .b2 = points->b2[k]};
     if (surface->normals || surface->flip)
         vec3_put(&points->normal, k,
                  surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
@@ -311,5 +337,6 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     t->kernels->hit_points(&t->scene->geometry, &w->shapes, &w->points);
     if (w->shapes.weighted)
         t->kernels->weights(&t->scene->geometry, &w->shapes, &w->points);
+    find_points_on_instances(w);
     finish_points(w);
 }

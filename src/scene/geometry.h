@@ -49,9 +49,9 @@ struct instance {
     uint32_t prototype; /* the geometry that holds the shape */
     uint32_t only;      /* the primitive that is the shape, or PRIM_NONE: all of them */
     struct box box;     /* in the world */
-    /* Rounding errors of points taken back into the shape's space are those of coordinates as large
-     * as `growth` times (the point's largest + `shift`), plus `reach`. */
-    double growth, shift, reach;
+    /* Points on the shape, taken into its space, have the rounding errors of coordinates as large as
+     * growth times the point's largest, plus reach. */
+    double growth, reach;
 };
 
 struct prototype;

@@ -105,7 +105,6 @@ static void place_shape(struct instance *i, struct prototype *p)
         reach = box_reach(geometry_prim_bounds(g, i->only));
     }
     i->growth = row_norm(&i->to_shape);
-    i->shift = vec3_largest(vec3(i->to_world.m[0][3], i->to_world.m[1][3], i->to_world.m[2][3]));
     i->reach = product_norm(&i->to_shape, &i->to_world) * reach;
 }
 
@@ -136,7 +135,7 @@ struct inner_ray instance_ray(const struct instance *i, const struct ray *ray, d
                                       .spawned = ray->spawned}};
     inner.frame = ray_frame_of(&inner.ray);
     if (ray->spawned)
-        inner.frame.reach = i->growth * (vec3_largest(ray->origin) + i->shift) + i->reach;
+        inner.frame.reach = i->growth * vec3_largest(ray->origin) + i->reach;
     return inner;
 }
 
@@ -174,7 +173,7 @@ bool instance_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p, do
     const struct instance *i = instance_at(g, prim);
     const struct geometry *shapes = shapes_of(g, i);
     struct vec3 inner = affine_point(&i->to_shape, p);
-    reach = i->growth * (reach + i->shift) + i->reach;
+    reach = i->growth * reach + i->reach;
     if (i->only != PRIM_NONE)
         return geometry_lies_on(shapes, i->only, inner, reach);
     for (uint32_t k = 0; k < shapes->prims.n; k++)

@@ -59,6 +59,19 @@ bool load_lower(struct load *l, const char *name, const char *text)
     return validate(l) && lower_scene(&l->desc, &l->sources, &l->lowered, &l->diag);
 }
 
+bool load_lower_placed(struct load *l, const char *name, const char *text,
+                       const struct affine *place)
+{
+    load_text(l, name, text);
+    if (!validate(l))
+        return false;
+    for (size_t i = 0; i < l->desc.surfaces.n; i++)
+        l->desc.surfaces.at[i]->place = place;
+    for (size_t i = 0; i < l->desc.lights.n; i++)
+        l->desc.lights.at[i]->place = place;
+    return lower_scene(&l->desc, &l->sources, &l->lowered, &l->diag);
+}
+
 void load_free(struct load *l)
 {
     lower_free(&l->lowered);

@@ -29,6 +29,10 @@ bool load_validate(struct load *l, const char *text);
 /* Files are relative to the folder of `name`. */
 bool load_lower(struct load *l, const char *name, const char *text);
 
+/* The same with all surfaces and lights at the place. */
+bool load_lower_placed(struct load *l, const char *name, const char *text,
+                       const struct affine *place);
+
 void load_free(struct load *l);
 
 /* The first finding's code and message; "" when there is none. */

@@ -331,6 +331,227 @@ START_TEST(files_that_fail)
 }
 END_TEST
 
+/* ---- places ---------------------------------------------------------------------------------- */
+
+static const struct scene *lower_at(struct load *l, const struct affine *place, const char *body)
+{
+    char text[4000];
+    snprintf(text, sizeof text, NATIVE "%s\n", body);
+    ck_assert_msg(load_lower_placed(l, scene_name, text, place), "%s: %s", body, load_first(l));
+    return &l->lowered.scene;
+}
+
+static void check_near(struct vec3 v, double x, double y, double z)
+{
+    ck_assert_msg(vec3_largest(vec3_sub(v, vec3(x, y, z))) < 1e-14,
+                  "(%.17g %.17g %.17g) is not (%.17g %.17g %.17g)", v.x, v.y, v.z, x, y, z);
+}
+
+/* A quarter turn about z, twice as large, moved. */
+static const struct affine even = {{{0, -2, 0, 10}, {2, 0, 0, 20}, {0, 0, 2, 30}}};
+static const struct affine grown = {{{2, 0, 0, 10}, {0, 2, 0, 20}, {0, 0, 2, 30}}};
+static const struct affine uneven = {{{1, 0, 0, 10}, {0, 2, 0, 20}, {0, 0, 3, 30}}};
+static const struct affine mirror = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+static const struct affine flat = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {1, 1, 0, 0}}};
+
+#define TEXTURED "material: lambert { diffuse: 1  texture: image { file: \"t.png\" } }"
+
+START_TEST(round_things_stay_round)
+{
+    struct load l;
+    const struct scene *s =
+        lower_at(&l, &even,
+                 "sphere { center: (1, 2, 3)  radius: 0.5  " WHITE " }\n"
+                 "cylinder { base: (1, 2, 3)  height: 4  radius: 0.5  " WHITE " }\n"
+                 "triangle { vertices: [(1, 0, 0), (0, 1, 0), (0, 0, 1)]  " WHITE " }\n"
+                 "light point { position: (1, 2, 3) }\nlight area { position: (1, 2, 3)  shape: "
+                 "sphere  size: 1 }");
+    ck_assert_uint_eq(s->geometry.instances.n, 0);
+    check_vec3(s->geometry.spheres.at[0].center, 6, 22, 36);
+    ck_assert_double_eq(s->geometry.spheres.at[0].radius, 1);
+    const struct cylinder *c = &s->geometry.cylinders.at[0];
+    check_vec3(c->base, 6, 22, 36);
+    check_vec3(c->axis, -1, 0, 0);
+    ck_assert_double_eq(c->height, 8);
+    ck_assert_double_eq(c->radius, 1);
+    check_vec3(s->geometry.vertices.at[0], 10, 22, 30);
+    ck_assert(!s->surfaces.at[2].flip);
+    check_vec3(s->lights.at[0].position, 6, 22, 36);
+    check_vec3(s->lights.at[1].object.spheres.at[0].center, 6, 22, 36);
+    ck_assert_double_eq(s->lights.at[1].object.spheres.at[0].radius, 1);
+    load_free(&l);
+}
+END_TEST
+
+START_TEST(others_become_instances)
+{
+    struct load l;
+    const struct scene *s =
+        lower_at(&l, &uneven,
+                 "sphere { center: (1, 2, 3)  radius: 0.5  " WHITE " }\n"
+                 "cylinder { base: (1, 2, 3)  height: 4  radius: 0.5  " WHITE " }\n"
+                 "light area { position: (1, 2, 3)  shape: sphere  size: 1 }");
+    const struct geometry *g = &s->geometry;
+    ck_assert(g->instances.n == 2 && g->prims.n == 2 && g->spheres.n == 0);
+    check_vec3(g->instances.at[0].box.lo, 10.5, 23, 37.5);
+    check_vec3(g->instances.at[0].box.hi, 11.5, 25, 40.5);
+    check_near(g->instances.at[1].box.lo, 10.5, 24, 37.5);
+    check_near(g->instances.at[1].box.hi, 11.5, 32, 40.5);
+    ck_assert_uint_eq(g->prims.at[1].surface, 1);
+    check_vec3(geometry_bounds(&s->lights.at[0].object).lo, 10.5, 23, 37.5);
+    load_free(&l);
+}
+END_TEST
+
+/* Texture coordinates turn with what they are on. */
+START_TEST(textures_turn_along)
+{
+    struct load l;
+    const char *body = "sphere { center: (1, 2, 3)  radius: 0.5  " TEXTURED " }\n"
+                       "cylinder { base: (1, 2, 3)  height: 4  radius: 0.5  " TEXTURED " }";
+    ck_assert_uint_eq(lower_at(&l, &grown, body)->geometry.instances.n, 0);
+    load_free(&l);
+    const struct scene *s = lower_at(&l, &even, body);
+    ck_assert_uint_eq(s->geometry.instances.n, 2);
+    for (uint32_t i = 0; i < 2; i++) {
+        struct hit hit = {.prim = i, .part = CYLINDER_SIDE};
+        struct vec3 p = affine_point(&even, vec3(1.3, i ? 5 : 2.4, 3));
+        struct vec2 uv = surface_uv(s, &s->surfaces.at[i], &hit, p);
+        struct geometry plain = {0};
+        geometry_add_sphere(&plain, 0, vec3(1, 2, 3), 0.5);
+        geometry_add_cylinder(&plain, 1, vec3(1, 2, 3), vec3(1, 6, 3), 0.5);
+        struct scene other = {.geometry = plain};
+        struct vec2 wanted =
+            surface_uv(&other, &s->surfaces.at[i], &hit, vec3(1.3, i ? 5 : 2.4, 3));
+        ck_assert_double_eq_tol(uv.x, wanted.x, 1e-14);
+        ck_assert_double_eq_tol(uv.y, wanted.y, 1e-14);
+        geometry_free(&plain);
+    }
+    load_free(&l);
+}
+END_TEST
+
+/* What was lit stays lit: corners run the other way round in a mirror. */
+START_TEST(mirrors_keep_sides)
+{
+    struct load l;
+    const struct scene *s =
+        lower_at(&l, &mirror,
+                 "triangle { vertices: [(0, 0, 0), (1, 0, 0), (0, 1, 0)]  " WHITE " }\n"
+                 "sphere { center: (1, 2, 3)  radius: 0.5  " WHITE " }");
+    struct hit hit = {.prim = 0};
+    struct vec3 geometric = s->geometry.triangles.at[0].normal;
+    check_vec3(geometric, 0, 0, -1);
+    check_vec3(surface_normal(s, &s->surfaces.at[0], &hit, geometric), -0.0, -0.0, 1);
+    ck_assert(!s->surfaces.at[1].flip);
+    check_vec3(s->geometry.spheres.at[0].center, -1, 2, 3);
+    load_free(&l);
+}
+END_TEST
+
+static struct vec3 corner_normal(const struct surface *s, uint32_t vertex)
+{
+    return vec3_scale(s->normals[vertex], s->flip ? -1 : 1);
+}
+
+/* Normals are those of the mesh as it is in the file, and turned by the place like planes. */
+START_TEST(mesh_normals_turn_like_planes)
+{
+    struct load l;
+    double third = 1 / sqrt(3);
+    const struct scene *s = lower_at(&l, &uneven, "mesh { file: \"m.off\"  " WHITE " }");
+    struct vec3 n = vec3(-third, -third / 2, -third / 3);
+    n = vec3_normalize(n);
+    check_near(corner_normal(&s->surfaces.at[0], 0), n.x, n.y, n.z);
+    check_vec3(s->geometry.vertices.at[3], 10, 20, 33);
+    load_free(&l);
+    s = lower_at(&l, &mirror, "mesh { file: \"m.off\"  " WHITE " }");
+    check_near(corner_normal(&s->surfaces.at[0], 0), third, -third, -third);
+    load_free(&l);
+    /* classic: after the mesh's own scale, which turns normals as the original's did */
+    s = lower_at(&l, NULL, "mesh { file: \"m.off\"  scale: (-1, 1, 1)  " WHITE " }");
+    check_near(corner_normal(&s->surfaces.at[0], 0), -third, third, third);
+    load_free(&l);
+}
+END_TEST
+
+enum { MANY = 20000 }; /* surfaces: more than 65536 / 4 copies of a tetrahedron */
+
+static char *many_meshes(const char *each)
+{
+    static const char head[] = NATIVE "material m = lambert { diffuse: 1 }\n";
+    size_t n = strlen(each), size = sizeof head + MANY / 2 * n;
+    char *text = mem_alloc(size, 1);
+    strcpy(text, head);
+    for (size_t i = 0; i < MANY / 2; i++)
+        memcpy(text + sizeof head - 1 + i * n, each, n + 1);
+    return text;
+}
+
+START_TEST(many_uses_share_one_mesh)
+{
+    struct load l;
+    char *text = many_meshes("mesh{file:\"m.off\" position:1 scale:3 material:m}\n"
+                             "mesh{file:\"m.off\" position:(5,6,7) scale:2 material:m}\n");
+    ck_assert(load_lower_placed(&l, scene_name, text, &uneven));
+    const struct geometry *g = &l.lowered.scene.geometry;
+    ck_assert_uint_eq(g->instances.n, MANY);
+    ck_assert_uint_eq(g->prims.n, MANY);
+    ck_assert_uint_eq(g->vertices.n, 0);
+    ck_assert_uint_eq(g->prototypes.n, 2);
+    ck_assert_uint_eq(g->prototypes.at[1]->shapes.triangles.n, 4);
+    const struct surface *first = &l.lowered.scene.surfaces.at[0];
+    ck_assert_ptr_eq(first->normals, l.lowered.scene.surfaces.at[MANY - 1].normals);
+    ck_assert_uint_eq(g->prims.at[7].surface, 7);
+    check_vec3(g->instances.at[7].box.lo, 15, 32, 51);
+    check_vec3(g->instances.at[7].box.hi, 17, 36, 57);
+    struct hit hit = {.prim = 7, .part = 3}; /* at the first corner */
+    double third = 1 / sqrt(3);
+    struct vec3 n = surface_normal(&l.lowered.scene, first, &hit, vec3_all(0));
+    struct vec3 wanted = vec3_normalize(vec3(third, (third - 1) / 2, (third - 1) / 3));
+    check_near(n, wanted.x, wanted.y, wanted.z);
+    load_free(&l);
+    free(text);
+}
+END_TEST
+
+static const struct {
+    const char *body;
+    const struct affine *place;
+    enum diag_code code;
+    const char *message;
+} displaced[] = {
+    {"sphere { center: 0  radius: 1  " WHITE " }", &flat, DIAG_DEGENERATE, "flatten it"},
+    {"mesh { file: \"m.off\"  " WHITE " }", &flat, DIAG_DEGENERATE, "flatten it"},
+    {"light point { position: 1 }", &flat, DIAG_DEGENERATE, "flatten it"},
+    {"light area { shape: quad  size: 1 }", &flat, DIAG_DEGENERATE, "flatten it"},
+    {"sphere { center: 1e308  radius: 1  " WHITE " }", &even, DIAG_NOT_FINITE, "too large"},
+    {"sphere { center: 1e308  radius: 1  " WHITE " }", &uneven, DIAG_DEGENERATE, "too large"},
+    {"sphere { center: 1  radius: 1e308  " WHITE " }", &even, DIAG_DEGENERATE, "too large"},
+    {"triangle { vertices: [(1e308, 0, 0), (0, 1, 0), (0, 0, 1)]  " WHITE " }", &even,
+     DIAG_NOT_FINITE, "too large"},
+    {"cylinder { base: (1, 1e16, 1)  height: 1  radius: 1  " WHITE " }", &uneven, DIAG_DEGENERATE,
+     "lost in rounding"},
+    {"cylinder { base: 1e308  height: 1e300  radius: 1  " WHITE " }", &even, DIAG_NOT_FINITE,
+     "too large"},
+};
+
+START_TEST(places_that_fail)
+{
+    struct load l;
+    char text[1000];
+    snprintf(text, sizeof text, NATIVE "%s\n", displaced[_i].body);
+    if (without_meshes(text))
+        return;
+    ck_assert(!load_lower_placed(&l, scene_name, text, displaced[_i].place));
+    ck_assert_uint_eq(l.diag.entries.n, 1);
+    ck_assert_msg(l.diag.entries.at[0]->code == displaced[_i].code &&
+                      strstr(load_first(&l), displaced[_i].message),
+                  "%s", load_first(&l));
+    load_free(&l);
+}
+END_TEST
+
 Suite *lower_suite(void)
 {
     Suite *s = suite_create("lower");
@@ -347,6 +568,13 @@ Suite *lower_suite(void)
     tcase_add_loop_test(t, mesh_is_scaled_then_moved, 0, MESH_TESTS);
     tcase_add_loop_test(t, normals_are_shown, 0, MESH_TESTS);
     tcase_add_loop_test(t, files_that_fail, 0, COUNT(failures));
+    tcase_add_test(t, round_things_stay_round);
+    tcase_add_test(t, others_become_instances);
+    tcase_add_test(t, textures_turn_along);
+    tcase_add_test(t, mirrors_keep_sides);
+    tcase_add_loop_test(t, mesh_normals_turn_like_planes, 0, MESH_TESTS);
+    tcase_add_loop_test(t, many_uses_share_one_mesh, 0, MESH_TESTS);
+    tcase_add_loop_test(t, places_that_fail, 0, COUNT(displaced));
     suite_add_tcase(s, t);
     return s;
 }

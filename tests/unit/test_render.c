@@ -76,6 +76,38 @@ static void add_mesh(struct scene *s, uint32_t material, struct vec3 at, double 
     }
 }
 
+/* The unit ball, a cylinder or a mesh, squashed and turned. */
+static void add_instance(struct scene *s, uint32_t material, enum surface_kind kind, struct vec3 at,
+                         double size)
+{
+    struct geometry *g = &s->geometry;
+    struct affine scale = affine_scaling(vec3(size, 0.6 * size, -0.8 * size));
+    struct affine turn = affine_rotation(vec3(20, 30, 40)), move = affine_translation(at);
+    struct affine map = affine_times(&turn, &scale);
+    map = affine_times(&move, &map);
+    uint32_t only = 0, prototype = PROTOTYPE_SOLIDS;
+    if (kind == SURFACE_CYLINDER) {
+        only = (uint32_t)geometry_solids(g)->prims.n;
+        geometry_add_cylinder(geometry_solids(g), 0, vec3(0, -1, 0), vec3(0, 1, 0.2), 0.7);
+    } else if (kind == SURFACE_MESH) {
+        prototype = geometry_add_prototype(g);
+        struct geometry *shapes = &g->prototypes.at[prototype]->shapes;
+        for (int i = 0; i < 8; i++)
+            geometry_add_vertex(shapes, vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+        for (uint32_t i = 0; i < 6; i++)
+            for (uint32_t k = i + 1; k < 8; k++)
+                geometry_add_triangle(shapes, 0, i, k, k - 1);
+        only = PRIM_NONE;
+    } else {
+        geometry_solids(g);
+    }
+    struct surface *surface = add_surface(s, kind, material);
+    static const struct vec3 normals[8] = {{1, 0, 0}, {0, 1, 0},  {0, 0, 1},     {0.6, 0.8, 0},
+                                           {0, 0, 0}, {0, -1, 0}, {0.8, 0, 0.6}, {-1, 0, 0}};
+    surface->normals = kind == SURFACE_MESH ? normals : NULL;
+    ck_assert(geometry_add_instance(g, last_surface(s), prototype, only, &map));
+}
+
 static struct light *add_light(struct scene *s, enum light_kind kind, struct vec3 at, double power)
 {
     vec_push(&s->lights, (struct light){.kind = kind,
@@ -150,6 +182,11 @@ static void make_scene(struct scene *s, double scale, bool glow)
     add_surface(s, SURFACE_QUAD, GLASS);
     add_quad(g, last_surface(s), vec3(-k, -0.5 * k, -2.5 * k), vec3(0.5 * k, 0, 0),
              vec3(0, k, 0.1 * k));
+    add_instance(s, GLASS, SURFACE_SPHERE, vec3(1.2 * k, -0.5 * k, -2 * k), 0.4 * k);
+    add_instance(s, PATTERN, SURFACE_SPHERE, vec3(0, 1.4 * k, -k), 0.5 * k);
+    add_instance(s, MIRROR, SURFACE_CYLINDER, vec3(-1.9 * k, -0.6 * k, -1.5 * k), 0.3 * k);
+    add_instance(s, SHINY, SURFACE_MESH, vec3(1.6 * k, 1.5 * k, 0), 0.4 * k);
+    add_instance(s, GLASS, SURFACE_MESH, vec3(-0.4 * k, 0.9 * k, -2 * k), 0.2 * k);
     if (glow) {
         add_surface(s, SURFACE_QUAD, GLOW);
         add_quad(g, last_surface(s), vec3(-k, 4 * k, -2 * k), vec3(2 * k, 0, 0), vec3(0, 0, 2 * k));

@@ -21,6 +21,7 @@ int main(void)
     srunner_add_suite(runner, mesh_suite());
     srunner_add_suite(runner, bvh_suite());
     srunner_add_suite(runner, geometry_suite());
+    srunner_add_suite(runner, instance_suite());
     srunner_add_suite(runner, kernels_suite());
     srunner_add_suite(runner, print_suite());
     srunner_add_suite(runner, render_suite());

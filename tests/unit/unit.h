@@ -14,6 +14,7 @@ Suite *geometry_suite(void);
 Suite *image_suite(void);
 Suite *kernels_suite(void);
 Suite *language_suite(void);
+Suite *instance_suite(void);
 Suite *lower_suite(void);
 Suite *mesh_suite(void);
 Suite *print_suite(void);
