@@ -70,7 +70,7 @@ int command_convert(const struct options *o)
     struct frontend f;
     struct lowered lowered = {0};
     if (frontend_load(&f, o->scenes.at[0], o) &&
-        lower_scene(&f.desc, &f.sources, &lowered, &f.diag))
+        lower_scene_copied(&f.desc, &f.sources, &lowered, &f.diag))
         convert(&f, &lowered, format, o->output);
     int status = frontend_report(&f, o, o->quiet ? DIAG_WARNING : DIAG_NOTE);
     lower_free(&lowered);

@@ -206,10 +206,23 @@ static void add_light(struct json *j, const struct light *l, const struct srcmap
 
 /* ---- surfaces -------------------------------------------------------------------------------- */
 
-static void add_round(struct json *j, const struct scene *scene, uint32_t prim)
+/* Twelve numbers, row by row. */
+static void add_map(struct json *j, const struct affine *a)
+{
+    add_key(j, "place");
+    open_with(j, "[");
+    for (int i = 0; i < 12; i++) {
+        separate(j);
+        buffer_number(j->out, a->m[i / 4][i % 4]);
+    }
+    close_with(j, "]");
+}
+
+static void add_round(struct json *j, const struct scene *scene, enum surface_kind kind,
+                      uint32_t prim)
 {
     open_with(j, "{");
-    if (scene->geometry.prims.at[prim].kind == PRIM_SPHERE) {
+    if (kind == SURFACE_SPHERE) {
         const struct sphere *s = export_sphere(scene, prim);
         add_vector(j, "center", s->center);
         add_field(j, "radius", s->radius);
@@ -220,6 +233,8 @@ static void add_round(struct json *j, const struct scene *scene, uint32_t prim)
         add_field(j, "height", c->height);
         add_field(j, "radius", c->radius);
     }
+    if (export_place(scene, prim))
+        add_map(j, export_place(scene, prim));
     close_with(j, "}");
 }
 
@@ -286,7 +301,7 @@ static void add_surface(struct json *j, const struct scene *scene, const struct 
         add_key(j, "shapes");
         open_with(j, "[");
         for (uint32_t i = 0; i < s->prim_count; i++)
-            add_round(j, scene, s->first_prim + i);
+            add_round(j, scene, s->kind, s->first_prim + i);
         close_with(j, "]");
     } else {
         add_facets(j, scene, s);

@@ -447,19 +447,37 @@ static void open_shape(struct exporting *e, const struct surface *s, uint32_t pr
         open_facets(e, s);
 }
 
+/* Textures are placed with what they are on. */
+static void add_place(struct buffer *out, const struct affine *place)
+{
+    if (!place)
+        return;
+    buffer_puts(out, " matrix <");
+    for (int i = 0; i < 12; i++) {
+        buffer_puts(out, i ? "," : "");
+        buffer_number(out, place->m[i % 3][i / 3]);
+    }
+    buffer_puts(out, ">");
+}
+
 static void add_object(struct pov *p, const struct surface *s, uint32_t prim)
 {
     struct exporting *e = &p->e;
     enum material_kind kind = e->scene->materials.at[s->material].kind;
     bool glass = kind == MATERIAL_GLASS;
+    const struct affine *place = export_place(e->scene, prim);
     buffer_puts(e->out, glass ? "#declare Glass = " : "");
     open_shape(e, s, prim);
     buffer_puts(e->out, glass ? " }\nobject { Glass " : " ");
     add_material_use(p, s, prim);
-    if (glass)
-        buffer_puts(e->out, " no_shadow }\nobject { Glass no_image no_reflection }\n");
-    else
-        buffer_puts(e->out, kind == MATERIAL_EMISSIVE ? " no_shadow }\n" : " }\n");
+    add_place(e->out, place);
+    if (glass) {
+        buffer_puts(e->out, " no_shadow }\nobject { Glass no_image no_reflection");
+        add_place(e->out, place);
+        buffer_puts(e->out, " }\n");
+        return;
+    }
+    buffer_puts(e->out, kind == MATERIAL_EMISSIVE ? " no_shadow }\n" : " }\n");
 }
 
 static void add_surface(struct pov *p, const struct surface *s)

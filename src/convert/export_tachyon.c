@@ -223,6 +223,57 @@ static void add_triangles(struct buffer *out, const struct surface *s, const str
     }
 }
 
+/* Tachyon has no ellipsoids: a grid of triangles over the shape, placed. */
+enum { AROUND = 96, ALONG = 48 };
+
+/* u: once around; v: along, both from 0 to 1. */
+static struct vec3 sphere_point(const struct sphere *s, double u, double v)
+{
+    struct vec3 n = vec3(sin(PI * v) * cos(2 * PI * u), cos(PI * v), sin(PI * v) * sin(2 * PI * u));
+    return vec3_mad(s->center, s->radius, n);
+}
+
+/* A third of v for each cap and the side. */
+static struct vec3 cylinder_point(const struct cylinder *c, double u, double v)
+{
+    struct vec3 e = c->axis, other = fabs(e.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    struct vec3 x = vec3_normalize(vec3_cross(e, other)), y = vec3_cross(e, x);
+    double outwards = fmin(1, fmin(3 * v, 3 - 3 * v)), up = fmin(1, fmax(0, 3 * v - 1));
+    struct vec3 p = vec3_mad(c->base, up * c->height, e);
+    p = vec3_mad(p, outwards * c->radius * cos(2 * PI * u), x);
+    return vec3_mad(p, outwards * c->radius * sin(2 * PI * u), y);
+}
+
+static void add_triangle(struct buffer *out, const struct vec3 corners[3], uint32_t material)
+{
+    static const struct triangle_corners all = {{0, 1, 2}};
+    buffer_puts(out, "TRI");
+    add_corners(out, 'V', corners, all);
+    buffer_printf(out, " M%u\n", material);
+}
+
+static void add_placed(struct tachyon *t, const struct surface *s, uint32_t prim, uint32_t material)
+{
+    const struct scene *scene = t->e.scene;
+    const struct affine *place = export_place(scene, prim);
+    export_lose(&t->e, LOSS_UNEVEN, s->span);
+    for (int i = 0; i < AROUND * ALONG; i++) {
+        struct vec3 p[4];
+        for (int k = 0; k < 4; k++) {
+            double u = (i % AROUND + (k == 1 || k == 2)) / (double)AROUND;
+            double v = (i / AROUND + (k >= 2)) / (double)ALONG;
+            p[k] = s->kind == SURFACE_SPHERE ? sphere_point(export_sphere(scene, prim), u, v)
+                                             : cylinder_point(export_cylinder(scene, prim), u, v);
+            p[k] = affine_point(place, p[k]);
+        }
+        struct vec3 other[3] = {p[2], p[3], p[0]};
+        if (i / AROUND > 0) /* not at the first pole */
+            add_triangle(t->e.out, p, material);
+        if (i / AROUND < ALONG - 1)
+            add_triangle(t->e.out, other, material);
+    }
+}
+
 static void add_surface(struct tachyon *t, const struct surface *s)
 {
     const struct scene *scene = t->e.scene;
@@ -231,7 +282,9 @@ static void add_surface(struct tachyon *t, const struct surface *s)
     bool round = s->kind == SURFACE_SPHERE || s->kind == SURFACE_CYLINDER;
     note_losses(&t->e, s, &scene->materials.at[s->material]);
     for (uint32_t i = 0; round && i < s->prim_count; i++) {
-        if (s->kind == SURFACE_SPHERE)
+        if (export_place(scene, s->first_prim + i))
+            add_placed(t, s, s->first_prim + i, material);
+        else if (s->kind == SURFACE_SPHERE)
             add_sphere(out, export_sphere(scene, s->first_prim + i), material);
         else
             add_cylinder(out, export_cylinder(scene, s->first_prim + i), material);

@@ -109,14 +109,28 @@ struct facets export_facets(const struct scene *scene, const struct surface *s)
     return f;
 }
 
+static struct spot spot_of(const struct scene *scene, uint32_t prim)
+{
+    struct hit hit = {.prim = prim};
+    return geometry_spot(&scene->geometry, &hit);
+}
+
 const struct cylinder *export_cylinder(const struct scene *scene, uint32_t prim)
 {
-    return &scene->geometry.cylinders.at[scene->geometry.prims.at[prim].index];
+    struct spot s = spot_of(scene, prim);
+    return &s.geometry->cylinders.at[s.geometry->prims.at[s.prim].index];
 }
 
 const struct sphere *export_sphere(const struct scene *scene, uint32_t prim)
 {
-    return &scene->geometry.spheres.at[scene->geometry.prims.at[prim].index];
+    struct spot s = spot_of(scene, prim);
+    return &s.geometry->spheres.at[s.geometry->prims.at[s.prim].index];
+}
+
+const struct affine *export_place(const struct scene *scene, uint32_t prim)
+{
+    struct spot s = spot_of(scene, prim);
+    return s.instance ? &s.instance->to_world : NULL;
 }
 
 uint32_t export_name(struct export_names *names, struct str text, bool *fresh)

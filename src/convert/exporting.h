@@ -18,6 +18,7 @@
     X(AREA_GRID, "area lights become flat grids of points")                                \
     X(AREA_POINT, "area lights become points: their shadows are hard")                     \
     X(EMISSIVE_SHADOW, "emissive surfaces cast shadows")                                   \
+    X(UNEVEN, "unevenly scaled spheres and cylinders become triangles")                    \
     X(FALLOFF,                                                                             \
       "reflection and refraction take the strength of falling off lights from the middle " \
       "of the scene")
@@ -71,9 +72,12 @@ struct triangle_corners export_corners(const struct facets *f, size_t face);
 struct triangle_corners export_normal_corners(const struct facets *f, const struct surface *s,
                                               size_t face);
 
-/* The cylinders or the sphere of a surface. */
+/* The cylinders or the sphere of a surface, in a space of their own where there is a place. */
 const struct cylinder *export_cylinder(const struct scene *scene, uint32_t prim);
 const struct sphere *export_sphere(const struct scene *scene, uint32_t prim);
+
+/* The map from that space to the world, or NULL. */
+const struct affine *export_place(const struct scene *scene, uint32_t prim);
 
 /* Texts of materials, each kept once and numbered from 0. */
 struct export_names {

@@ -62,8 +62,8 @@ static bool is_available(const struct desc *d, struct diag *diag)
     return true;
 }
 
-bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
-                 struct diag *diag)
+static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                       bool copied, struct diag *diag)
 {
     *out = (struct lowered){0};
     if (!is_available(d, diag))
@@ -74,6 +74,7 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
         .out = out,
         .scene = &out->scene,
         .diag = diag,
+        .copied = copied,
         .material_of = none_of(d->materials.n),
         .texture_of = none_of(d->textures.n),
     };
@@ -100,6 +101,18 @@ bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *o
     map_free(&l.models);
     map_free(&l.uv_lists);
     return diag->errors == errors;
+}
+
+bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                 struct diag *diag)
+{
+    return lower_desc(d, sources, out, false, diag);
+}
+
+bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                        struct diag *diag)
+{
+    return lower_desc(d, sources, out, true, diag);
 }
 
 void lower_free(struct lowered *l)

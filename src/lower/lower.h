@@ -26,6 +26,10 @@ struct lowered {
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag);
 
+/* The same with every use of a mesh a copy: for whoever cannot share one. */
+bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,
+                        struct diag *diag);
+
 void lower_free(struct lowered *l);
 
 #endif

@@ -21,6 +21,7 @@ struct lowering {
     struct lowered *out;
     struct scene *scene; /* &out->scene */
     struct diag *diag;
+    bool copied;           /* every use of a mesh is a copy */
     uint32_t *material_of; /* scene material of each described one, or UINT32_MAX */
     uint32_t *texture_of;  /* likewise */
     struct map images;     /* path to struct image, decoded once */

@@ -304,7 +304,7 @@ bool lower_mesh(struct lowering *l, const struct desc_object *o, struct surface 
     if (is_smooth(o))
         find_normals(l, model);
     s->flip = desc_number(o, PROP_FLIP_NORMALS) != 0;
-    bool shared = is_shared(model) && !desc_get(o, PROP_SHOW_NORMALS);
+    bool shared = is_shared(model) && !l->copied && !desc_get(o, PROP_SHOW_NORMALS);
     if (shared ? !lower_instance(l, o, model, s) : !lower_copy(l, o, model, s))
         return false;
     if (is_smooth(o))
