@@ -14,7 +14,7 @@
 # WRT is the program under test, WRT_WRAPPER a command to run it under, such as valgrind.
 set -u
 export LC_ALL=C TERM=dumb
-unset NO_COLOR CDPATH
+unset NO_COLOR CDPATH MAKEFLAGS MFLAGS MAKELEVEL
 
 here=$(cd "$(dirname "$0")" && pwd)
 srcdir=$(cd "$here/../.." && pwd)
