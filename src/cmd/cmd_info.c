@@ -40,9 +40,14 @@ static size_t mesh_bytes(const struct lowered *l)
     return sum;
 }
 
+/* With the prototypes, which hold none themselves. */
 static size_t geometry_bytes(const struct geometry *g)
 {
-    return g->prims.capacity * sizeof *g->prims.at + g->spheres.capacity * sizeof *g->spheres.at +
+    size_t sum = g->instances.capacity * sizeof *g->instances.at;
+    for (size_t i = 0; i < g->prototypes.n; i++)
+        sum += geometry_bytes(&g->prototypes.at[i]->shapes);
+    return sum + g->prims.capacity * sizeof *g->prims.at +
+           g->spheres.capacity * sizeof *g->spheres.at +
            g->cylinders.capacity * sizeof *g->cylinders.at +
            g->triangles.capacity * sizeof *g->triangles.at +
            g->vertices.capacity * sizeof *g->vertices.at;
@@ -76,6 +81,10 @@ struct info_facts info_facts(const struct info *i)
     f.counts[INFO_CYLINDERS] = g->cylinders.n;
     f.counts[INFO_TRIANGLES] = g->triangles.n;
     f.counts[INFO_VERTICES] = g->vertices.n;
+    for (size_t k = 0; k < g->prototypes.n; k++) {
+        f.counts[INFO_TRIANGLES] += g->prototypes.at[k]->shapes.triangles.n;
+        f.counts[INFO_VERTICES] += g->prototypes.at[k]->shapes.vertices.n;
+    }
     f.counts[INFO_LIGHTS] = s->lights.n;
     f.counts[INFO_MATERIALS] = s->materials.n;
     f.counts[INFO_TEXTURES] = s->textures.n;
