@@ -119,10 +119,10 @@ static void choose_sampling(struct run *r)
 {
     const struct options *o = r->options;
     struct render_options *to = &r->render;
-    to->grid = o->grid;
+    to->grid = o->grid ? o->grid : r->lowered.scene.grid;
     to->jitter = o->jitter;
     to->seed = o->seed;
-    to->depth = o->depth;
+    to->depth = o->depth != DEPTH_OF_SCENE ? o->depth : r->lowered.scene.depth;
     to->threads = o->threads;
     to->show = o->show;
     to->brute_force = o->brute_force;
@@ -168,17 +168,27 @@ static int load(struct run *r)
     return status;
 }
 
+/* What is shown instead of light is stored as it is. */
+static enum picture_encoding picture_encoding(const struct scene *s, enum render_show show)
+{
+    if (s->model == SCENE_CLASSIC || show != SHOW_PICTURE)
+        return ENCODING_PLAIN;
+    return s->linear ? ENCODING_LINEAR : ENCODING_SRGB;
+}
+
 static void render(struct run *r)
 {
     struct render_options *to = &r->render;
     uint32_t width = to->crop.x1 - to->crop.x0, height = to->crop.y1 - to->crop.y0;
     choose_sampling(r);
     r->picture = picture_new(width, height, r->format == PICTURE_PFM);
+    r->picture->encoding = picture_encoding(&r->lowered.scene, to->show);
     progress_begin(&r->progress, r->options->quiet, (unsigned long)width * height);
     to->progress.report = progress_report;
     to->progress.context = &r->progress;
     render_scene(&r->lowered.scene, to, r->picture, &r->stats.render);
     progress_end(&r->progress);
+    r->stats.grid = to->grid;
     r->stats.width = width;
     r->stats.height = height;
 }

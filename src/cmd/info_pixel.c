@@ -4,14 +4,16 @@
 
 #include "scene/camera.h"
 
-/* Classic's one sample a pixel: its lower left corner. */
+/* Of one sample a pixel. */
 static struct ray ray_of(const struct camera *c, const struct options *o, uint32_t x, uint32_t y)
 {
     uint32_t width = o->width ? o->width : c->width, height = o->width ? o->height : c->height;
     struct lens lens = lens_of(c, width, height);
-    double u = (double)x / width, v = (double)(height - 1 - y) / height;
-    return (struct ray){.origin = lens.origin,
-                        .direction = lens_direction(&lens, u, v),
+    double in_pixel = camera_sample(c);
+    double across = camera_place(c, x + in_pixel, width);
+    double up = camera_place(c, height - 1 - y + in_pixel, height);
+    return (struct ray){.origin = lens_origin(&lens, across, up),
+                        .direction = lens_direction(&lens, across, up),
                         .t_max = RAY_UNBOUNDED,
                         .from = PRIM_NONE,
                         .surface = SURFACE_NONE};

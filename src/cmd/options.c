@@ -386,8 +386,7 @@ static bool accept(const struct given *g, const char *word, unsigned command, st
 
 enum options_result options_read(int argc, char **argv, unsigned command, struct options *out)
 {
-    *out = (struct options){.grid = 1,
-                            .depth = 3,
+    *out = (struct options){.depth = DEPTH_OF_SCENE,
                             .threads = thread_cores(),
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000};

@@ -35,7 +35,9 @@ struct options {
     uint32_t width, height;    /* 0: the scene's */
     bool cropped;
     uint32_t crop[4];
-    uint32_t grid, depth, threads;
+    uint32_t grid;  /* 0: the scene's */
+    uint32_t depth; /* or DEPTH_OF_SCENE */
+    uint32_t threads;
     uint64_t seed;
     size_t max_objects;
     enum render_show show;
@@ -50,6 +52,8 @@ struct options {
 
 /* The exit status of wrong usage. */
 enum { EXIT_USAGE = 2 };
+
+#define DEPTH_OF_SCENE UINT32_MAX
 
 /* What the command line asks for. */
 enum options_result { OPTIONS_RUN, OPTIONS_HELP, OPTIONS_VERSION, OPTIONS_WRONG };

@@ -47,7 +47,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
                          "render_s", r->render_s, "write_s", s->write_s, "total_s", s->total_s,
                          "threads", (int)o->threads, "isa", isa_name(o->isa), "width",
                          (int)s->width, "height", (int)s->height, "samples",
-                         (int)(o->grid * o->grid), "rays", "primary", (json_int_t)r->primary,
+                         (int)(s->grid * s->grid), "rays", "primary", (json_int_t)r->primary,
                          "shadow", (json_int_t)r->shadow, "reflection", (json_int_t)r->reflection,
                          "refraction", (json_int_t)r->refraction, "shadow_rays_skipped",
                          (json_int_t)r->shadow_skipped, "surfaces", (json_int_t)scene->surfaces.n,
@@ -62,7 +62,7 @@ static void render_text(const struct run_stats *s, const struct options *o,
     const struct render_stats *r = &s->render;
     uint64_t rays = r->primary + r->shadow + r->reflection + r->refraction;
     fprintf(stderr, "picture    %u x %u, %u sample%s a pixel, %u thread%s, %s\n", s->width,
-            s->height, o->grid * o->grid, o->grid > 1 ? "s" : "", o->threads,
+            s->height, s->grid * s->grid, s->grid > 1 ? "s" : "", o->threads,
             o->threads > 1 ? "s" : "", isa_name(o->isa));
     fprintf(stderr, "scene      %zu surfaces, %zu triangles, %zu lights, %zu textures\n",
             scene->surfaces.n, count_triangles(scene), scene->lights.n, scene->textures.n);

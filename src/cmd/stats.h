@@ -12,6 +12,7 @@ uint64_t stats_peak_rss(void);
 struct run_stats {
     double parse_s, load_s, write_s, total_s;
     uint32_t width, height;
+    uint32_t grid; /* samples along each side of a pixel */
     struct render_stats render;
 };
 

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/str.h"
 #include "image/codec.h"
+#include "math/srgb.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -134,12 +135,29 @@ void image_free(struct image *i)
     free(i);
 }
 
-/* The original program's rounding for 8 bits; the comparison is false for NaN. */
-static uint8_t channel_byte(double c)
+/* c from 0 to 1, bounds left out. */
+static uint8_t plain_byte(double c)
 {
-    if (!(c > 0))
-        return 0;
-    return c < 1 ? (uint8_t)(c * 255 + 0.1) : 255;
+    return (uint8_t)(c * 255 + 0.1);
+}
+
+static uint8_t linear_byte(double c)
+{
+    return (uint8_t)(c * 255 + 0.5);
+}
+
+static uint8_t srgb_byte(double c)
+{
+    return (uint8_t)(srgb_encode(c) * 255 + 0.5);
+}
+
+/* The comparisons are false for NaN. */
+static uint8_t channel_byte(enum picture_encoding encoding, double c)
+{
+    static uint8_t (*const byte[])(double) = {[ENCODING_PLAIN] = plain_byte,
+                                              [ENCODING_SRGB] = srgb_byte,
+                                              [ENCODING_LINEAR] = linear_byte};
+    return !(c > 0) ? 0 : c < 1 ? byte[encoding](c) : 255;
 }
 
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
@@ -151,9 +169,9 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
         p->floats[at + 2] = (float)colour.z;
         return;
     }
-    p->bytes[at] = channel_byte(colour.x);
-    p->bytes[at + 1] = channel_byte(colour.y);
-    p->bytes[at + 2] = channel_byte(colour.z);
+    p->bytes[at] = channel_byte(p->encoding, colour.x);
+    p->bytes[at + 1] = channel_byte(p->encoding, colour.y);
+    p->bytes[at + 2] = channel_byte(p->encoding, colour.z);
 }
 
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

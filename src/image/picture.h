@@ -8,9 +8,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* How the bytes of a picture hold light; floats hold it as it is. */
+enum picture_encoding {
+    ENCODING_PLAIN,  /* classic: floor(clamp(c, 0, 1) 255 + 0.1), as the original program did */
+    ENCODING_SRGB,   /* IEC 61966-2-1, to the nearest byte; PNG files say so */
+    ENCODING_LINEAR, /* to the nearest byte; PNG files say so, by a gamma of 1 */
+};
+
 /* A picture to write: RGB, 8 bits a channel, or 32-bit floats as they came from the renderer. */
 struct picture {
     uint32_t width, height;
+    enum picture_encoding encoding; /* picture_new makes it plain */
     uint8_t *bytes; /* 3 width height, or NULL */
     float *floats;  /* 3 width height, or NULL */
 };
@@ -23,8 +31,8 @@ bool image_size_allowed(uint64_t width, uint64_t height);
 struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
 void picture_free(struct picture *p);
 
-/* Stores a colour.  Bytes: floor(clamp(c, 0, 1) 255 + 0.1), not-a-number gives 0, as the original
- * program did.  Threads may set different pixels at once. */
+/* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels at
+ * once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
 
 /* A decoded texture: RGB, 8 or 16 bits a channel (native byte order), grey spread to three

@@ -213,6 +213,10 @@ static void encode(struct encoder *e)
     png_set_user_limits(e->png, IMAGE_SIDE_LIMIT, IMAGE_SIDE_LIMIT);
     png_set_IHDR(e->png, e->info, p->width, p->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (p->encoding == ENCODING_SRGB)
+        png_set_sRGB(e->png, e->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else if (p->encoding == ENCODING_LINEAR)
+        png_set_gAMA(e->png, e->info, 1);
     png_write_info(e->png, e->info);
     png_write_chunk(e->png, (png_const_bytep) "IDAT", e->data, e->data_bytes);
     png_write_chunk(e->png, (png_const_bytep) "IEND", NULL, 0);

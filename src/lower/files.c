@@ -3,6 +3,8 @@
 
 #include "lower/lowering.h"
 
+#include "math/srgb.h"
+
 #include "base/file.h"
 
 #include <string.h>
@@ -50,19 +52,37 @@ static struct image *load_image(struct lowering *l, const struct desc_value *fil
     return image;
 }
 
-uint32_t lower_texture(struct lowering *l, const struct desc_object *o)
+/* The light of each sample value of an image. */
+static const double *decoding_of(struct lowering *l, const struct image *image)
 {
+    const double **table = image->data8 ? &l->decode8 : &l->decode16;
+    uint32_t n = image->data8 ? 256 : 65536;
+    if (*table)
+        return *table;
+    double *values = arena_zalloc(&l->scene->arena, n, sizeof *values);
+    for (uint32_t i = 0; i < n; i++)
+        values[i] = srgb_decode(i / (double)(n - 1));
+    return *table = values;
+}
+
+uint32_t lower_texture(struct lowering *l, const struct desc_object *o, bool data)
+{
+    bool modern = l->scene->model == SCENE_MODERN;
     if (!o)
         return TEXTURE_NONE;
-    if (l->texture_of[o->number] != TEXTURE_NONE)
-        return l->texture_of[o->number];
+    uint32_t *number = &(data && modern ? l->data_of : l->texture_of)[o->number];
+    if (*number != TEXTURE_NONE)
+        return *number;
     const struct desc_value *file = desc_get(o, PROP_FILE);
     struct texture t = {.image = load_image(l, file),
                         .file = path_of(l, file),
-                        .linear = desc_word(o, PROP_FILTER) == 1};
-    uint32_t number = (uint32_t)l->scene->textures.n;
+                        .linear = desc_word(o, PROP_FILTER) == 1,
+                        .centred = modern};
+    if (modern && !data && t.image)
+        t.decode = decoding_of(l, t.image);
+    *number = (uint32_t)l->scene->textures.n;
     vec_push(&l->scene->textures, t);
-    return l->texture_of[o->number] = number;
+    return *number;
 }
 
 /* A text file as a source, so that findings can point into it. */

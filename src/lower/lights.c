@@ -9,6 +9,14 @@ enum { FEWEST_SAMPLES = 3 }; /* along each axis of an area light's grid */
 static bool add_built_in(struct lowering *l, const struct desc_object *o, struct geometry *g)
 {
     enum { SHAPE_SPHERE, SHAPE_QUAD };
+    const struct desc_value *given = desc_get(o, PROP_LIGHT_VERTICES);
+    if (given) {
+        for (int i = 0; i < 4; i++)
+            geometry_add_vertex(g, lower_placed(o, given->points[i]));
+        geometry_add_triangle(g, 0, 0, 1, 2);
+        geometry_add_triangle(g, 0, 2, 3, 0);
+        return true;
+    }
     struct vec3 c = desc_vector(o, PROP_LIGHT_POSITION);
     double h = desc_number(o, PROP_LIGHT_SIZE) / 2;
     if (desc_word(o, PROP_SHAPE) == SHAPE_SPHERE)
@@ -66,21 +74,45 @@ static void lower_area(struct lowering *l, const struct desc_object *o, struct l
         diag_report(l->diag, DIAG_DEGENERATE, o->span, "the light's object has no faces");
         return;
     }
-    light_sample_grid(light, grid_box(object ? object->object : NULL, g),
-                      samples < FEWEST_SAMPLES ? FEWEST_SAMPLES : (uint32_t)samples);
+    if (l->scene->model == SCENE_CLASSIC)
+        light_sample_grid(light, grid_box(object ? object->object : NULL, g),
+                          samples < FEWEST_SAMPLES ? FEWEST_SAMPLES : (uint32_t)samples);
+    else if (!light_surface(light, (uint32_t)samples))
+        diag_report(l->diag, DIAG_DEGENERATE, o->span, "the light has no area");
+}
+
+/* The direction to the sun, wherever its groups turn it; false after reporting. */
+static bool lower_sun(struct lowering *l, const struct desc_object *o, struct vec3 *to_sun)
+{
+    struct vec3 d = vec3_neg(desc_vector(o, PROP_SUN_DIRECTION));
+    if (o->place)
+        d = affine_vector(o->place, d);
+    double largest = vec3_largest(d);
+    *to_sun = vec3_normalize(vec3_scale(d, 1 / largest));
+    bool points = largest > 0 && vec3_largest(*to_sun) <= 1;
+    if (!points)
+        diag_report(l->diag, DIAG_DEGENERATE, o->span, "the light has no direction");
+    return points;
 }
 
 void lower_light(struct lowering *l, const struct desc_object *o)
 {
+    static const enum light_kind kinds[SCHEMA_KINDS] = {[KIND_POINT_LIGHT] = LIGHT_POINT,
+                                                        [KIND_AREA_LIGHT] = LIGHT_AREA,
+                                                        [KIND_SUN_LIGHT] = LIGHT_SUN};
     struct light light = {
-        .kind = o->kind == KIND_AREA_LIGHT ? LIGHT_AREA : LIGHT_POINT,
-        .position = lower_placed(o, desc_vector(o, PROP_LIGHT_POSITION)),
-        .intensity = desc_vector(o, PROP_INTENSITY),
-        .inverse_square = desc_word(o, PROP_FALLOFF) == 1,
-        .span = o->span,
-    };
-    if (!lower_has_volume(l, o) || !lower_is_finite(l, o, light.position))
+        .kind = kinds[o->kind], .intensity = desc_vector(o, PROP_INTENSITY), .span = o->span};
+    if (!lower_has_volume(l, o))
         return;
+    if (light.kind == LIGHT_SUN) {
+        if (!lower_sun(l, o, &light.position))
+            return;
+    } else {
+        light.position = lower_placed(o, desc_vector(o, PROP_LIGHT_POSITION));
+        light.inverse_square = desc_word(o, PROP_FALLOFF) == 1;
+        if (!lower_is_finite(l, o, light.position))
+            return;
+    }
     if (light.kind == LIGHT_AREA)
         lower_area(l, o, &light);
     vec_push(&l->scene->lights, light);

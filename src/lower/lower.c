@@ -4,19 +4,55 @@
 
 #include <string.h>
 
+static void lower_classic_camera(const struct desc_object *o, struct camera *c)
+{
+    c->back = desc_vector(o, PROP_BACK);
+    c->yfov = desc_number(o, PROP_YFOV);
+    c->compatible = desc_number(o, PROP_COMPAT) != 0;
+}
+
+/* A lens has a field of view or a height, never both. */
+static void lower_modern_camera(const struct desc_object *o, struct camera *c)
+{
+    c->modern = true;
+    c->back = desc_get(o, PROP_VIEW) ? vec3_neg(desc_vector(o, PROP_VIEW))
+                                     : vec3_sub(c->origin, desc_vector(o, PROP_LOOK_AT));
+    if (desc_get(o, PROP_FOV))
+        c->yfov = desc_number(o, PROP_FOV);
+    else
+        c->view_height = desc_number(o, PROP_VIEW_HEIGHT);
+}
+
 static void lower_camera(struct lowering *l)
 {
     const struct desc_object *o = l->desc->camera;
     const struct desc_value *size = desc_get(o, PROP_RESOLUTION);
-    l->scene->camera = (struct camera){
-        .origin = desc_vector(o, PROP_EYE),
-        .back = desc_vector(o, PROP_BACK),
-        .up = desc_vector(o, PROP_UP),
-        .yfov = desc_number(o, PROP_YFOV),
-        .width = (uint32_t)size->number[0],
-        .height = (uint32_t)size->number[1],
-        .compatible = desc_number(o, PROP_COMPAT) != 0,
-    };
+    struct camera *c = &l->scene->camera;
+    *c = (struct camera){.origin = desc_vector(o, PROP_EYE),
+                         .up = desc_vector(o, PROP_UP),
+                         .width = (uint32_t)size->number[0],
+                         .height = (uint32_t)size->number[1]};
+    if (l->scene->model == SCENE_MODERN)
+        lower_modern_camera(o, c);
+    else
+        lower_classic_camera(o, c);
+}
+
+/* Classic has no choice; a modern scene without settings has their defaults. */
+static void lower_settings(struct lowering *l)
+{
+    static const struct desc_object defaults = {.kind = KIND_SETTINGS, .model = SCHEMA_MODERN};
+    const struct desc_object *o = l->desc->settings ? l->desc->settings : &defaults;
+    struct scene *s = l->scene;
+    s->depth = 3;
+    s->grid = 1;
+    if (s->model == SCENE_CLASSIC)
+        return;
+    s->background = desc_vector(o, PROP_BACKGROUND);
+    s->ambient = desc_vector(o, PROP_AMBIENT);
+    s->depth = (uint32_t)desc_number(o, PROP_DEPTH);
+    s->grid = (uint32_t)desc_number(o, PROP_SAMPLES);
+    s->linear = desc_word(o, PROP_ENCODING) == 1;
 }
 
 static uint32_t *none_of(size_t n)
@@ -36,7 +72,7 @@ static void note_unused(struct lowering *l)
 {
     const struct desc *d = l->desc;
     for (size_t i = 0; i < d->textures.n; i++)
-        if (l->texture_of[i] == UINT32_MAX)
+        if (l->texture_of[i] == UINT32_MAX && l->data_of[i] == UINT32_MAX)
             note_skipped(l, "texture", desc_get(d->textures.at[i], PROP_FILE)->string);
     for (size_t i = 0; i < d->materials.n; i++)
         if (l->material_of[i] == UINT32_MAX && d->materials.at[i]->name.n)
@@ -49,25 +85,11 @@ static void note_unused(struct lowering *l)
     }
 }
 
-/* What the front end reads and the tracer does not know. */
-static bool is_available(const struct desc *d, struct diag *diag)
-{
-    if (d->model == SCHEMA_MODERN) {
-        struct diag_entry *e =
-            diag_report(diag, DIAG_MODEL, d->model_span,
-                        "the model 'modern' is not available; this version renders 'classic'");
-        diag_note(e, "a scene that names no model is modern; 'model classic' is the other");
-        return false;
-    }
-    return true;
-}
-
 static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowered *out,
                        bool copied, struct diag *diag)
 {
     *out = (struct lowered){0};
-    if (!is_available(d, diag))
-        return false;
+    out->scene.model = d->model == SCHEMA_MODERN ? SCENE_MODERN : SCENE_CLASSIC;
     struct lowering l = {
         .desc = d,
         .sources = sources,
@@ -77,10 +99,12 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
         .copied = copied,
         .material_of = none_of(d->materials.n),
         .texture_of = none_of(d->textures.n),
+        .data_of = none_of(d->textures.n),
     };
     size_t errors = diag->errors;
     lower_camera(&l);
     lower_count_meshes(&l);
+    lower_settings(&l);
     for (size_t i = 0; i < d->lights.n; i++) {
         diag->frame = d->lights.at[i]->frame;
         lower_light(&l, d->lights.at[i]);
@@ -96,6 +120,7 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
     note_unused(&l);
     free(l.material_of);
     free(l.texture_of);
+    free(l.data_of);
     map_free(&l.images);
     map_free(&l.meshes);
     map_free(&l.models);

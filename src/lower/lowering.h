@@ -23,7 +23,9 @@ struct lowering {
     struct diag *diag;
     bool copied;           /* every use of a mesh is a copy */
     uint32_t *material_of; /* scene material of each described one, or UINT32_MAX */
-    uint32_t *texture_of;  /* likewise */
+    uint32_t *texture_of;  /* likewise, of textures that are light */
+    uint32_t *data_of;     /* of those that are normals */
+    const double *decode8, *decode16; /* see struct texture; NULL until needed */
     struct map images;     /* path to struct image, decoded once */
     struct map meshes;     /* path to its number in out->meshes + 1, as a pointer */
     struct map models;     /* path and ratio to struct mesh_model */
@@ -33,8 +35,8 @@ struct lowering {
 /* ---- files.c ---- */
 
 /* The scene's texture for a described one, loaded when first asked for; TEXTURE_NONE for NULL and
- * after errors. */
-uint32_t lower_texture(struct lowering *l, const struct desc_object *texture);
+ * after errors.  data: what it holds is no light, as a normal map's. */
+uint32_t lower_texture(struct lowering *l, const struct desc_object *texture, bool data);
 
 /* The mesh a property names, read when first asked for.  Valid until the next is read. */
 const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file);

@@ -32,12 +32,13 @@ static uint32_t lower_material(struct lowering *l, const struct desc_object *o)
         .refraction = desc_vector(o, PROP_REFRACTION),
         .exponent = desc_number(o, PROP_EXPONENT),
         .ior = desc_number(o, PROP_IOR),
-        .texture = lower_texture(l, texture ? texture->object : NULL),
+        .texture = lower_texture(l, texture ? texture->object : NULL, false),
         .uv = uv_map_of(o),
     };
     if (m.kind == MATERIAL_METAL) { /* a metal tints what it mirrors */
         m.specular = vec3_mul(m.specular, m.diffuse);
-        m.reflection = vec3_scale(m.diffuse, m.reflection.x);
+        m.reflection = l->scene->model == SCENE_MODERN ? vec3_mul(m.diffuse, m.reflection)
+                                                       : vec3_scale(m.diffuse, m.reflection.x);
     }
     uint32_t number = (uint32_t)l->scene->materials.n;
     vec_push(&l->scene->materials, m);
@@ -100,7 +101,7 @@ void lower_surface(struct lowering *l, const struct desc_object *o)
         .material = lower_material(l, desc_get(o, PROP_MATERIAL)->object),
         .first_prim = (uint32_t)g->prims.n,
         .first_vertex = (uint32_t)g->vertices.n,
-        .normal_map = lower_texture(l, map ? map->object : NULL),
+        .normal_map = lower_texture(l, map ? map->object : NULL, true),
         .uv = uv_map_of(o),
         .needs_uv = lower_wants_uvs(o) != NULL,
         .flip = is_turned_over(o),

@@ -87,6 +87,15 @@ static inline struct vec3 vec3_cross(struct vec3 a, struct vec3 b)
                          difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
+/* Unit vectors across the unit vector n, and each other: Duff et al., Building an orthonormal basis,
+ * revisited, JCGT 2017. */
+static inline void vec3_basis(struct vec3 n, struct vec3 *x, struct vec3 *y)
+{
+    double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    *x = vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    *y = vec3(b, sign + n.y * n.y * a, -n.y);
+}
+
 static inline bool vec3_is_zero(struct vec3 a)
 {
     return a.x == 0 && a.y == 0 && a.z == 0;

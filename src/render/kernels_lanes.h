@@ -5,13 +5,13 @@
 #include "math/lanes.h"
 #include "render/tracer.h"
 
-static void aim(const struct lens *lens, const double *u, const double *v, uint32_t n,
+static void aim(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions)
 {
     struct vvec3 across = v3_all(lens->across), upwards = v3_all(lens->upwards);
     for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 d = v3_scale(across, 2 * v_load(u + i) - 1);
-        d = v3_add(v3_mad(d, 2 * v_load(v + i) - 1, upwards), v3_all(lens->ahead));
+        struct vvec3 d = v3_mad(v3_scale(across, v_load(x + i)), v_load(y + i), upwards);
+        d = v3_add(d, v3_all(lens->ahead));
         if (lens->mirrored)
             d.z = -d.z;
         v3_store(directions, i, v3_normalize(d));
@@ -221,6 +221,10 @@ static void texels(const struct texture *texture, const double *u, const double 
     const struct image *image = texture->image;
     double full = image->data8 ? 255 : 65535;
     struct texel_corners c;
+    if (texture->centred) {
+        render_plain.texels(texture, u, v, n, out);
+        return;
+    }
     uint64_t strange = place_corners(image, u, v, n, &c);
     load_texels(image, n, texture->linear ? 4 : 1, &c);
     for (uint32_t i = 0; i < n; i += LANES) {

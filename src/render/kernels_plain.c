@@ -3,11 +3,11 @@
 
 #include "render/tracer.h"
 
-static void aim(const struct lens *lens, const double *u, const double *v, uint32_t n,
+static void aim(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions)
 {
     for (uint32_t i = 0; i < n; i++)
-        vec3_put(directions, i, lens_direction(lens, u[i], v[i]));
+        vec3_put(directions, i, lens_direction(lens, x[i], y[i]));
 }
 
 static struct ray ray_to(const struct hit_shapes *shapes, const struct shade_batch *points,

@@ -41,7 +41,7 @@ static void meet_crossed_surfaces(struct worker *w, const struct ray_batch *rays
 {
     for (uint32_t i = 0; i < rays->n; i++) {
         struct hit hit;
-        inside[i] = paths && paths[i].crossed != SURFACE_NONE &&
+        inside[i] = paths && !w->tracer->modern && paths[i].crossed != SURFACE_NONE &&
                     hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit);
         if (inside[i])
             hit_put(&w->hits, i, &hit);
@@ -205,10 +205,36 @@ static void note_textures(struct worker *w, uint32_t k, const struct surface *su
     if (surface->normal_map != TEXTURE_NONE) {
         struct textured *bumps = &w->bumps;
         add_textured(bumps, k, surface->normal_map, &surface->uv, uv);
-        uv = (struct vec2){bumps->u[bumps->n - 1], bumps->v[bumps->n - 1]};
+        if (!w->tracer->modern) /* the original's material starts from the mapped ones */
+            uv = (struct vec2){bumps->u[bumps->n - 1], bumps->v[bumps->n - 1]};
     }
     if (m->texture != TEXTURE_NONE)
         add_textured(&w->paints, k, m->texture, &m->uv, uv);
+}
+
+static struct hit hit_of_point(const struct worker *w, uint32_t k)
+{
+    const struct shade_batch *points = &w->points;
+    return (struct hit){.t = points->t[k],
+                        .prim = points->prim[k],
+                        .part = (uint32_t)w->shapes.part[k],
+                        .b1 = points->b1[k],
+                        .b2 = points->b2[k]};
+}
+
+/* Modern: the other normals, and where shadow rays start. */
+static void raise_point(struct shade_batch *points, uint32_t k, const struct scene *scene,
+                        const struct surface *surface, const struct hit *hit)
+{
+    struct vec3 geometric = vec3_get(&points->geometric, k);
+    bool behind = vec3_dot(geometric, vec3_get(&points->incoming, k)) > 0;
+    struct vec3 outwards = behind ? vec3_neg(geometric) : geometric;
+    if (surface->flip)
+        vec3_put(&points->geometric, k, vec3_neg(geometric));
+    vec3_put(&points->smooth, k, vec3_get(&points->normal, k));
+    if (surface->normals)
+        vec3_put(&points->lifted, k,
+                 surface_lift(scene, surface, hit, vec3_get(&points->p, k), outwards));
 }
 
 /* Normals that are not the primitive's own, and what textures say. */
@@ -216,14 +242,12 @@ static void apply_surface(struct worker *w, uint32_t k, const struct surface *su
 {
     const struct scene *scene = w->tracer->scene;
     struct shade_batch *points = &w->points;
-    struct hit hit = {.t = points->t[k],
-                      .prim = points->prim[k],
-                      .part = (uint32_t)w->shapes.part[k],
-                      .b1 = points->b1[k],
-                      .b2 = points->b2[k]};
+    struct hit hit = hit_of_point(w, k);
     if (surface->normals || surface->flip)
         vec3_put(&points->normal, k,
                  surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
+    if (w->tracer->modern)
+        raise_point(points, k, scene, surface, &hit);
     if (surface->needs_uv)
         note_textures(w, k, surface, &hit);
 }
@@ -257,11 +281,33 @@ static void fetch_texels(const struct worker *w, const struct textured *t, struc
         todo = fetch_of_one(w, t, todo, out);
 }
 
+/* Modern: the texels are normals in the surface's own frame. */
+static void turn_normals(struct worker *w, const struct vec3_batch *texels)
+{
+    struct shade_batch *points = &w->points;
+    const struct scene *scene = w->tracer->scene;
+    for (uint32_t i = 0; i < w->bumps.n; i++) {
+        uint32_t k = w->bumps.point[i];
+        const struct surface *surface = &scene->surfaces.at[points->surface[k]];
+        struct hit hit = hit_of_point(w, k);
+        struct vec3 texel = vec3_get(texels, k), n = vec3_get(&points->normal, k), x, y;
+        surface_frame(scene, surface, &hit, vec3_get(&points->p, k), n, &x, &y);
+        n = vec3_scale(n, 2 * texel.z - 1);
+        n = vec3_mad(vec3_mad(n, 2 * texel.x - 1, x), 2 * texel.y - 1, y);
+        if (!vec3_is_zero(n))
+            vec3_put(&points->normal, k, vec3_normalize(n));
+    }
+}
+
 static void bend_normals(struct worker *w)
 {
     struct vec3_batch texels;
     double bent[BATCH_ROOM] = {0};
     fetch_texels(w, &w->bumps, &texels);
+    if (w->tracer->modern) {
+        turn_normals(w, &texels);
+        return;
+    }
     for (uint32_t i = 0; i < w->bumps.n; i++)
         bent[w->bumps.point[i]] = 1;
     w->tracer->kernels->bend(&texels, bent, &w->points);
@@ -304,6 +350,11 @@ static void finish_points(struct worker *w)
 {
     struct shade_batch *points = &w->points;
     w->bumps.n = w->paints.n = 0;
+    if (w->tracer->modern) {
+        vec3_copy(&points->geometric, points->n, &points->normal);
+        vec3_copy(&points->smooth, points->n, &points->normal);
+        vec3_copy(&points->lifted, points->n, &points->p);
+    }
     points->any_uneven = points->any_glowing = points->any_bounces = false;
     for (uint32_t first = 0, end; first < points->n; first = end) {
         end = first + 1;

@@ -30,20 +30,25 @@ struct sample {
     double x, y;
 };
 
-/* The one sample of pictures that show something else. */
-static const struct sample corner = {0, 0, 0, 0};
-
-/* The original's rule: sample (k, l) of pixel (i, j), j counted from the bottom.  One sample is
- * at the pixel's corner, n x n are spread around it.  move_x and move_y jitter it, from 0 to 1. */
-static void place_sample(struct sample *s, double n, double move_x, double move_y)
+/* Sample (k, l) of a pixel, l counted from the bottom; move_x and move_y jitter it, from 0 to 1.
+ * The original's rule: one sample is at the pixel's corner, n x n are spread around it. */
+static struct sample classic_sample(uint32_t k, uint32_t l, double n, double move_x, double move_y)
 {
-    if (n == 1) {
-        s->x = move_x;
-        s->y = move_y;
-    } else {
-        s->x = (s->k + move_x) / n - 1 / (2 * n);
-        s->y = (s->l + move_y) / n - 1 / (2 * n);
-    }
+    if (n == 1)
+        return (struct sample){k, l, move_x, move_y};
+    return (struct sample){k, l, (k + move_x) / n - 1 / (2 * n), (l + move_y) / n - 1 / (2 * n)};
+}
+
+/* Ours: in the middle of its part of the pixel. */
+static struct sample modern_sample(uint32_t k, uint32_t l, double n, double move_x, double move_y)
+{
+    return (struct sample){k, l, (k + move_x) / n, (l + move_y) / n};
+}
+
+static struct sample sample_at(const struct tracer *t, uint32_t k, uint32_t l, uint32_t n)
+{
+    double move = camera_sample(&t->scene->camera);
+    return t->modern ? modern_sample(k, l, n, move, move) : classic_sample(k, l, n, move, move);
 }
 
 struct tile {
@@ -67,13 +72,13 @@ static void report_progress(struct job *job, unsigned worker)
 }
 
 /* Where in pixel (i, j), j counted from the bottom, its sample is: jittered anew for each pixel. */
-static struct sample jittered(const struct render_options *o, uint32_t i, uint32_t j,
-                              struct sample s)
+static struct sample jittered(const struct tracer *t, uint32_t i, uint32_t j, struct sample s)
 {
+    const struct render_options *o = t->options;
     uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s.l * o->grid + s.k;
-    place_sample(&s, o->grid, rng_uniform(o->seed, pixel, number, 0),
-                 rng_uniform(o->seed, pixel, number, 1));
-    return s;
+    double x = rng_uniform(o->seed, pixel, number, 0), y = rng_uniform(o->seed, pixel, number, 1);
+    return t->modern ? modern_sample(s.k, s.l, o->grid, x, y)
+                     : classic_sample(s.k, s.l, o->grid, x, y);
 }
 
 /* The camera rays through this sample of all the tile's pixels, row by row. */
@@ -82,20 +87,25 @@ static const struct ray_batch *camera_rays(struct worker *w, const struct tile *
 {
     const struct tracer *t = w->tracer;
     const struct render_options *o = t->options;
+    const struct camera *camera = &t->scene->camera;
     struct ray_batch *rays = &w->camera_rays;
-    double u[BATCH_ROOM], v[BATCH_ROOM];
-    rays->n = 0;
-    for (uint32_t y = tile->y0; y < tile->y1; y++) {
-        for (uint32_t x = tile->x0; x < tile->x1; x++) {
-            uint32_t j = o->height - 1 - y;
-            struct sample s = o->jitter ? jittered(o, x, j, *sample) : *sample;
-            u[rays->n] = (x + s.x) / o->width;
-            v[rays->n++] = (j + s.y) / o->height;
+    double x[BATCH_ROOM], y[BATCH_ROOM];
+    uint32_t n = 0;
+    for (uint32_t row = tile->y0; row < tile->y1; row++) {
+        for (uint32_t i = tile->x0; i < tile->x1; i++) {
+            uint32_t j = o->height - 1 - row;
+            struct sample s = o->jitter ? jittered(t, i, j, *sample) : *sample;
+            x[n] = camera_place(camera, i + s.x, o->width);
+            y[n++] = camera_place(camera, j + s.y, o->height);
         }
     }
-    fill(u + rays->n, BATCH_ROOM - rays->n, 0);
-    fill(v + rays->n, BATCH_ROOM - rays->n, 0);
-    t->kernels->aim(&t->lens, u, v, rays->n, &rays->direction);
+    fill(x + n, BATCH_ROOM - n, 0);
+    fill(y + n, BATCH_ROOM - n, 0);
+    rays->n = n;
+    if (!t->lens.parallel)
+        t->kernels->aim(&t->lens, x, y, n, &rays->direction);
+    for (uint32_t i = 0; i < n && t->lens.parallel; i++)
+        vec3_put(&rays->origin, i, lens_origin(&t->lens, x[i], y[i]));
     return rays;
 }
 
@@ -116,8 +126,7 @@ static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_b
     vec3_fill(colours, BATCH, vec3_all(0));
     for (uint32_t k = 0; k < n; k++) {
         for (uint32_t l = 0; l < n; l++) {
-            struct sample sample = {.k = k, .l = l};
-            place_sample(&sample, n, 0, 0);
+            struct sample sample = sample_at(w->tracer, k, l, n);
             add_samples(w, tile, &sample, colours);
         }
     }
@@ -136,7 +145,8 @@ static void render_tile(void *context, size_t number, unsigned worker)
     if (job->tracer->options->show == SHOW_PICTURE) {
         sample_tile(w, &tile, &colours);
     } else {
-        const struct ray_batch *rays = camera_rays(w, &tile, &corner);
+        struct sample sample = sample_at(job->tracer, 0, 0, 1);
+        const struct ray_batch *rays = camera_rays(w, &tile, &sample);
         w->stats.primary += rays->n;
         show_batch(w, rays, job->range, job->out->bytes != NULL, &colours);
     }
@@ -153,7 +163,8 @@ static void find_range_of_tile(void *context, size_t number, unsigned worker)
     struct worker *w = job->workers[worker];
     struct tile tile = tile_of(job, number);
     double *range = job->ranges[worker];
-    find_points(w, camera_rays(w, &tile, &corner), NULL);
+    struct sample sample = sample_at(job->tracer, 0, 0, 1);
+    find_points(w, camera_rays(w, &tile, &sample), NULL);
     for (uint32_t k = 0; k < w->points.n; k++) {
         double t = w->points.t[k];
         range[0] = t < range[0] ? t : range[0];
@@ -199,6 +210,8 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
     t->skips = !options->no_skip && !options->brute_force;
     t->bundles = bundle_kernels_of(options->isa);
     t->kernels = render_kernels_of(t->skips ? options->isa : ISA_PLAIN);
+    t->modern = scene->model == SCENE_MODERN;
+    t->shading = t->modern ? &shading_modern : &shading_classic;
     accel_build(&t->accel, &scene->geometry, options->brute_force);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
@@ -232,14 +245,16 @@ static void add_stats(struct render_stats *sum, const struct render_stats *more)
     sum->shadow_skipped += more->shadow_skipped;
 }
 
-/* A worker whose camera rays lack nothing but their directions. */
+/* A worker whose camera rays lack nothing but their directions, or origins where they are parallel.
+ */
 static struct worker *camera_worker(const struct tracer *t)
 {
     struct worker *w = worker_new(t);
     struct ray_batch *rays = &w->camera_rays;
-    rays->common_origin = true;
+    rays->common_origin = !t->lens.parallel;
     for (uint32_t i = 0; i < BATCH_ROOM; i++) {
         vec3_put(&rays->origin, i, t->lens.origin);
+        vec3_put(&rays->direction, i, t->lens.ahead);
         rays->t_max[i] = RAY_UNBOUNDED;
         rays->from[i] = PRIM_NONE;
     }

@@ -60,20 +60,3 @@ struct vec3 finish_diffuse(const struct finish *f, struct vec3 diffuse, double c
         return lit;
     return vec3_scale(m->diffuse, (lit.x + lit.y + lit.z) / 3);
 }
-
-void shade_points(struct worker *w)
-{
-    const struct tracer *t = w->tracer;
-    uint32_t n = w->points.n;
-    double shares[BATCH_ROOM];
-    vec3_fill(&w->light.direct, n, vec3_all(0));
-    vec3_fill(&w->light.intensity, n, vec3_all(0));
-    if (n == 0)
-        return;
-    struct box box = t->kernels->bounds(&w->points.p, n);
-    fill(shares + n, BATCH_ROOM - n, 0);
-    for (size_t k = 0; k < t->scene->lights.n; k++) {
-        lamp_shares(w, &t->lamps[k], box, shares);
-        t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
-    }
-}

@@ -5,7 +5,10 @@
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force)
 {
     *lamp = (struct lamp){.light = light, .box = {light->position, light->position}};
-    if (light->kind == LIGHT_AREA) {
+    if (light->samples.n > 0) {
+        lamp->box = geometry_bounds(&light->object);
+        lamp->always_counts = true;
+    } else if (light->kind == LIGHT_AREA) {
         accel_build(&lamp->object, &light->object, brute_force);
         lamp->box = box_empty();
         for (size_t i = 0; i < light->points.n; i++) {
@@ -24,7 +27,7 @@ void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force)
 
 void lamp_free(struct lamp *lamp)
 {
-    if (lamp->light->kind == LIGHT_AREA)
+    if (lamp->object.geometry)
         accel_free(&lamp->object);
 }
 
@@ -39,7 +42,7 @@ static double box_gap(struct box a, struct box b)
  * distance to the light's position over that to the sample.  Infinite when it cannot be told. */
 static double longest_shadow_ray(const struct lamp *lamp, struct box from)
 {
-    if (lamp->light->kind == LIGHT_POINT)
+    if (lamp->light->kind == LIGHT_POINT || lamp->light->samples.n > 0)
         return 1;
     struct vec3 p = lamp->light->position;
     struct vec3 d = vec3_max(vec3_sub(p, from.lo), vec3_sub(from.hi, p));
@@ -51,6 +54,10 @@ static double longest_shadow_ray(const struct lamp *lamp, struct box from)
 static bool shaft_to_lamp(const struct tracer *t, const struct lamp *lamp, struct box from,
                           struct shaft *shaft)
 {
+    if (lamp->light->kind == LIGHT_SUN) {
+        *shaft = shaft_of_rays(&t->accel, from, lamp->box);
+        return true;
+    }
     double t_max = longest_shadow_ray(lamp, from);
     if (!(t_max <= 4))
         return false;
@@ -58,9 +65,8 @@ static bool shaft_to_lamp(const struct tracer *t, const struct lamp *lamp, struc
     return true;
 }
 
-/* What can stand between the box and the lamp. */
-static void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
-                           struct target_list *list)
+void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
+                    struct target_list *list)
 {
     struct shaft shaft;
     list->usable = false;
@@ -95,8 +101,8 @@ static bool lets_light(const struct tracer *t, const struct target_list *list)
 }
 
 /* A ray is blocked when its nearest hit is not emissive; where nothing is emissive, when it hits
- * anything.  Traces w->shadow_rays. */
-static void find_blocked(struct worker *w, const struct target_list *list, bool *blocked)
+ * anything. */
+void find_blocked(struct worker *w, const struct target_list *list, bool *blocked)
 {
     const struct tracer *t = w->tracer;
     const struct ray_batch *rays = &w->shadow_rays;
@@ -275,24 +281,32 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
     return tally.counted ? (double)tally.lit / (double)tally.counted : 0;
 }
 
-/* `list`: what can stand between any point of the batch and the lamp. */
-static double area_share(struct worker *w, const struct lamp *lamp, const struct target_list *list,
-                         const struct shade_point *s)
+/* Nothing in the way is nothing known where the light's own object decides which samples count. */
+enum lamp_view lamp_view(struct worker *w, const struct lamp *lamp, const struct target_list *batch,
+                         const struct shade_point *s, struct target_list *own)
 {
     const struct tracer *t = w->tracer;
-    struct target_list own = {.usable = false};
+    own->usable = false;
     if (!t->skips)
-        return sampled_share(w, lamp, &own, s);
-    if (list->usable)
-        own = *list;
+        return LAMP_PARTLY;
+    if (batch->usable)
+        *own = *batch;
     else
-        list_shadowers(t, lamp, (struct box){s->p, s->p}, &own);
-    bool hidden = own.usable && !narrow_list(t, lamp, s, &own);
-    bool in_the_open = own.usable && own.n == 0 && lamp->always_counts;
-    if (!hidden && !in_the_open)
+        list_shadowers(t, lamp, (struct box){s->p, s->p}, own);
+    if (own->usable && !narrow_list(t, lamp, s, own))
+        return LAMP_HIDDEN;
+    return own->usable && own->n == 0 && lamp->always_counts ? LAMP_OPEN : LAMP_PARTLY;
+}
+
+static double area_share(struct worker *w, const struct lamp *lamp, const struct target_list *batch,
+                         const struct shade_point *s)
+{
+    struct target_list own;
+    enum lamp_view view = lamp_view(w, lamp, batch, s, &own);
+    if (view == LAMP_PARTLY)
         return sampled_share(w, lamp, &own, s);
     w->stats.shadow_skipped += lamp->light->points.n;
-    return hidden ? 0 : 1;
+    return view == LAMP_OPEN;
 }
 
 /* Nothing stands between any of the points and the lamp. */
@@ -304,24 +318,37 @@ static void open_shares(struct worker *w, double *shares)
     }
 }
 
-/* The rays from the points to the lamp's position; all of them, or those that are lit at all. */
-static void aim_at_position(struct worker *w, struct vec3 position, uint32_t *which)
+/* Modern's shadow rays end this much of their length before the light, so that what the light lies
+ * on does not shadow it: far more than rounding errors, far less than can be seen. */
+#define LIGHT_CLEARANCE 0x1p-32
+
+double shadow_reach(const struct tracer *t, const struct light *light)
+{
+    return light->kind == LIGHT_SUN ? RAY_UNBOUNDED : t->modern ? 1 - LIGHT_CLEARANCE : 1;
+}
+
+/* The rays from the points to the light; all of them, or those that it lights at all. */
+static void aim_at_light(struct worker *w, const struct light *light, uint32_t *which)
 {
     const struct shade_batch *points = &w->points;
+    const struct vec3_batch *from = w->tracer->modern ? &points->lifted : &points->p;
     struct ray_batch *rays = &w->shadow_rays;
+    double t_max = shadow_reach(w->tracer, light);
     rays->n = 0;
     for (uint32_t k = 0; k < points->n; k++)
         if (!points->finish[k]->glows)
             which[rays->n++] = k;
     if (rays->n == points->n)
-        vec3_copy(&rays->origin, points->n, &points->p);
+        vec3_copy(&rays->origin, points->n, from);
     for (uint32_t i = 0; i < rays->n && rays->n < points->n; i++)
-        vec3_put(&rays->origin, i, vec3_get(&points->p, which[i]));
+        vec3_put(&rays->origin, i, vec3_get(from, which[i]));
     for (uint32_t i = 0; i < rays->n; i++) {
-        rays->t_max[i] = 1;
+        rays->t_max[i] = t_max;
         rays->from[i] = points->prim[which[i]];
-        vec3_put(&rays->direction, i, vec3_sub(position, vec3_get(&rays->origin, i)));
+        vec3_put(&rays->direction, i, vec3_sub(light->position, vec3_get(&rays->origin, i)));
     }
+    if (light->kind == LIGHT_SUN)
+        vec3_fill(&rays->direction, rays->n, light->position);
     rays->common_origin = rays->n == 1;
 }
 
@@ -330,7 +357,7 @@ static void point_shares(struct worker *w, const struct lamp *lamp, const struct
 {
     bool blocked[BATCH];
     uint32_t which[BATCH];
-    aim_at_position(w, lamp->light->position, which);
+    aim_at_light(w, lamp->light, which);
     fill(shares, w->points.n, 1);
     if (w->shadow_rays.n == 0)
         return;
@@ -345,7 +372,7 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, doub
     struct target_list list = {.usable = false};
     if (w->tracer->skips && n > 1)
         list_shadowers(w->tracer, lamp, box, &list);
-    if (lamp->light->kind == LIGHT_POINT) {
+    if (lamp->light->kind != LIGHT_AREA) {
         if (list.usable && list.n == 0)
             open_shares(w, shares);
         else

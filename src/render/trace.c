@@ -38,67 +38,15 @@ static struct level *level_at(struct worker *w, uint32_t depth)
     return level;
 }
 
-static void add_ray(struct offspring *o, const struct shade_batch *points, uint32_t k,
-                    struct vec3 direction, struct path path)
+void spawn_ray(struct offspring *o, const struct shade_batch *points, uint32_t k,
+               struct vec3 direction, const struct path *path)
 {
     uint32_t i = o->rays.n++;
     vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
     vec3_put(&o->rays.direction, i, direction);
     o->rays.t_max[i] = RAY_UNBOUNDED;
     o->rays.from[i] = points->prim[k];
-    o->paths[i] = path;
-}
-
-/* Which surface a refracted ray is tested against alone before all others. */
-static uint32_t surface_crossed(const struct scene *scene, uint32_t surface, bool inside)
-{
-    enum surface_kind kind = scene->surfaces.at[surface].kind;
-    if (kind == SURFACE_SPHERE || kind == SURFACE_CYLINDER)
-        return surface;
-    return kind == SURFACE_MESH && !inside ? surface : SURFACE_NONE;
-}
-
-/* Classic refraction.  `index` is that of the arriving ray. */
-static void add_refraction(struct level *level, const struct scene *scene,
-                           const struct shade_batch *points, uint32_t k, double index,
-                           struct vec3 weight)
-{
-    struct shade_point s = shade_point_get(points, k);
-    bool inside = points->inside[k];
-    double ior = s.finish->material->ior, eta = inside ? ior : index / ior;
-    struct vec3 normal = inside ? vec3_neg(s.normal) : s.normal;
-    double c = inside ? s.facing : -s.facing, root = 1 - eta * eta * (1 - c * c);
-    if (!(root > 0))
-        return;
-    struct vec3 direction = vec3_scale(s.incoming, eta);
-    direction = vec3_mad(direction, eta * c - sqrt(root), normal);
-    add_ray(&level->refracted, points, k, direction,
-            (struct path){inside ? 1 : ior, surface_crossed(scene, s.surface, inside),
-                          points->ray[k], weight});
-}
-
-/* Notes the rays that the hits give rise to.  Their share does not depend on the light, so each is
- * traced once, for the sum of all lights. */
-static void add_offspring(struct worker *w, struct level *level, const struct path *paths)
-{
-    const struct shade_batch *points = &w->points;
-    struct vec3_batch mirrored;
-    w->tracer->kernels->reflect(points, &mirrored);
-    for (uint32_t k = 0; k < points->n; k++) {
-        const struct material *m = points->finish[k]->material;
-        uint32_t ray = points->ray[k];
-        if (!points->finish[k]->bounces)
-            continue;
-        struct vec3 intensity = vec3_get(&w->light.intensity, k);
-        struct vec3 reflected = vec3_mul(intensity, m->reflection);
-        struct vec3 refracted = vec3_mul(intensity, m->refraction);
-        if (!vec3_is_zero(reflected))
-            add_ray(&level->reflected, points, k, vec3_get(&mirrored, k),
-                    (struct path){1, SURFACE_NONE, ray, reflected});
-        if (!vec3_is_zero(refracted))
-            add_refraction(level, w->tracer->scene, points, k, paths ? paths[ray].index : 1,
-                           refracted);
-    }
+    o->paths[i] = *path;
 }
 
 /* Traces the rays and adds their share to their parents' colours. */
@@ -122,13 +70,13 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
 {
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
-    vec3_fill(colours, rays->n, vec3_all(0));
+    vec3_fill(colours, rays->n, t->scene->background);
     find_points(w, rays, paths);
-    shade_points(w);
+    t->shading->light(w);
     for (uint32_t k = 0; k < w->points.n; k++)
         vec3_put(colours, w->points.ray[k], vec3_get(&w->light.direct, k));
     if (depth < t->options->depth && w->points.any_bounces)
-        add_offspring(w, level, paths);
+        t->shading->spawn(w, level, paths);
     w->stats.reflection += level->reflected.rays.n;
     w->stats.refraction += level->refracted.rays.n;
     trace_offspring(w, level, depth, &level->reflected, colours);

@@ -31,12 +31,28 @@ struct finish {
     bool glows;           /* emissive */
 };
 
+struct worker;
+struct level;
+struct path;
+
+/* A model's arithmetic. */
+struct shading {
+    /* Fills in w->light.direct for w->points, and what the model's spawn() needs. */
+    void (*light)(struct worker *w);
+    /* Notes the rays that the points give rise to. */
+    void (*spawn)(struct worker *w, struct level *level, const struct path *paths);
+};
+
+extern const struct shading shading_classic, shading_modern;
+
 struct tracer {
     const struct scene *scene;
     const struct render_options *options;
     struct accel accel;
     const struct bundle_kernels *bundles;
     const struct render_kernels *kernels;
+    const struct shading *shading;
+    bool modern;
     struct lens lens;
     struct lamp *lamps;      /* one a light of the scene */
     struct finish *finishes; /* one a material */
@@ -45,12 +61,26 @@ struct tracer {
     bool skips; /* work whose outcome is known beforehand is left out */
 };
 
+/* The surfaces that a ray is inside of, the one entered last at the end; modern.  What is nested
+ * deeper than the limit does not refract. */
+enum { MEDIA_LIMIT = 8 };
+
+struct media {
+    uint32_t n;
+    uint32_t surface[MEDIA_LIMIT];
+};
+
 /* Where a ray comes from. */
 struct path {
-    double index;       /* of refraction, carried by the ray */
-    uint32_t crossed;   /* surface it was refracted at and meets first, or SURFACE_NONE */
-    uint32_t parent;    /* place in its batch of the ray that gave rise to it */
     struct vec3 weight; /* of its colour in its parent's */
+    uint32_t parent;    /* place in its batch of the ray that gave rise to it */
+    union {
+        struct {              /* classic */
+            uint32_t crossed; /* surface it was refracted at and meets first, or SURFACE_NONE */
+            double index;     /* of refraction, carried by the ray */
+        };
+        struct media media; /* modern */
+    };
 };
 
 /* Hits and what shading needs of them. */
@@ -58,7 +88,11 @@ struct shade_batch {
     uint32_t n;
     struct vec3_batch incoming; /* unit, direction of travel */
     struct vec3_batch p, normal;
-    struct vec3_batch diffuse; /* the material's, times its texel */
+    /* Modern: */
+    struct vec3_batch geometric; /* the primitive's normal */
+    struct vec3_batch smooth;    /* interpolated, before a normal map bends it */
+    struct vec3_batch lifted;    /* where shadow rays start */
+    struct vec3_batch diffuse;   /* the material's, times its texel */
     struct vec3_batch specular;
     alignas(64) double facing[BATCH_ROOM]; /* cosine between normal and incoming */
     alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
@@ -123,8 +157,9 @@ struct hit_shapes {
 
 /* What an instruction set has its own code for. */
 struct render_kernels {
-    /* The directions of camera rays through picture coordinates u and v, from 0 to 1. */
-    void (*aim)(const struct lens *lens, const double *u, const double *v, uint32_t n,
+    /* The directions of camera rays through picture coordinates x and y, from -1 to 1; no parallel
+     * ones. */
+    void (*aim)(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions);
     /* Fills in p and normal of the points, whose incoming is known. */
     void (*hit_points)(const struct geometry *g, const struct hit_shapes *shapes,
@@ -178,8 +213,21 @@ struct worker {
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force);
 void lamp_free(struct lamp *lamp);
 
-/* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box. */
+/* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box.
+ * Classic, but for point lights and suns, which have it in both. */
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
+
+/* What is known of the light at a point beforehand, and a list of what can shadow it. */
+enum lamp_view { LAMP_HIDDEN, LAMP_PARTLY, LAMP_OPEN };
+enum lamp_view lamp_view(struct worker *w, const struct lamp *lamp, const struct target_list *batch,
+                         const struct shade_point *s, struct target_list *own);
+/* What can stand between the box and the lamp. */
+void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
+                    struct target_list *list);
+/* How far a shadow ray to the light goes, in its own length. */
+double shadow_reach(const struct tracer *t, const struct light *light);
+/* Traces w->shadow_rays: which of them meet what blocks light. */
+void find_blocked(struct worker *w, const struct target_list *list, bool *blocked);
 
 /* points.c: fills in w->points with the hits of the rays; paths is NULL for camera rays. */
 void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths);
@@ -191,10 +239,11 @@ struct vec3 finish_diffuse(const struct finish *f, struct vec3 diffuse, double c
 /* How bright the highlight is: the cosine to the power of the exponent. */
 double finish_highlight(const struct finish *f, double cosine);
 const struct render_kernels *render_kernels_of(enum isa isa);
-/* Fills in w->light for w->points. */
-void shade_points(struct worker *w);
 
-/* trace.c: the colours seen along the rays; paths is NULL for camera rays. */
+/* trace.c: adds a ray that starts at point k. */
+void spawn_ray(struct offspring *o, const struct shade_batch *points, uint32_t k,
+               struct vec3 direction, const struct path *path);
+/* The colours seen along the rays; paths is NULL for camera rays. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
                  const struct path *paths, struct vec3_batch *colours);
 struct worker *worker_new(const struct tracer *tracer);

@@ -2,6 +2,20 @@
 
 #include "scene/camera.h"
 
+/* Half the picture's extent at distance 1, or of parallel rays at all. */
+static struct vec2 half_extent(const struct camera *c, double w, double h)
+{
+    struct vec2 half;
+    if (!c->modern) {
+        half.x = tan(c->yfov * (PI / 180) * w / h);
+        half.y = half.x * h / w;
+        return half;
+    }
+    half.y = c->yfov > 0 ? tan(c->yfov * (PI / 360)) : c->view_height / 2;
+    half.x = half.y * w / h;
+    return half;
+}
+
 struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
 {
     double w = c->width, h = c->height;
@@ -12,17 +26,38 @@ struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height)
     struct vec3 z = vec3_normalize(c->back);
     struct vec3 y = vec3_normalize(vec3_mad(c->up, -vec3_dot(c->up, z), z));
     struct vec3 x = vec3_cross(z, y);
-    double tx = tan(c->yfov * (PI / 180) * w / h), ty = tx * h / w;
+    struct vec2 half = half_extent(c, w, h);
     return (struct lens){.origin = c->origin,
-                         .across = vec3_scale(x, tx),
-                         .upwards = vec3_scale(y, ty),
-                         .ahead = c->compatible ? vec3_neg(z) : z,
-                         .mirrored = !c->compatible};
+                         .across = vec3_scale(x, half.x),
+                         .upwards = vec3_scale(y, half.y),
+                         .ahead = c->modern || c->compatible ? vec3_neg(z) : z,
+                         .mirrored = !c->modern && !c->compatible,
+                         .parallel = c->modern && !(c->yfov > 0)};
 }
 
-struct vec3 lens_direction(const struct lens *l, double u, double v)
+/* Modern's form gives opposite places opposite numbers. */
+double camera_place(const struct camera *c, double place, uint32_t pixels)
 {
-    struct vec3 d = vec3_mad(vec3_scale(l->across, 2 * u - 1), 2 * v - 1, l->upwards);
+    return c->modern ? (2 * place - pixels) / pixels : 2 * (place / pixels) - 1;
+}
+
+double camera_sample(const struct camera *c)
+{
+    return c->modern ? 0.5 : 0;
+}
+
+struct vec3 lens_origin(const struct lens *l, double x, double y)
+{
+    if (!l->parallel)
+        return l->origin;
+    return vec3_mad(vec3_mad(l->origin, x, l->across), y, l->upwards);
+}
+
+struct vec3 lens_direction(const struct lens *l, double x, double y)
+{
+    if (l->parallel)
+        return l->ahead;
+    struct vec3 d = vec3_mad(vec3_scale(l->across, x), y, l->upwards);
     d = vec3_add(d, l->ahead);
     if (l->mirrored)
         d.z = -d.z;

@@ -14,6 +14,8 @@ void scene_free(struct scene *s)
     for (size_t i = 0; i < s->lights.n; i++) {
         geometry_free(&s->lights.at[i].object);
         vec_free(&s->lights.at[i].points);
+        vec_free(&s->lights.at[i].samples);
+        vec_free(&s->lights.at[i].areas);
     }
     vec_free(&s->lights);
     vec_free(&s->skipped);

@@ -15,19 +15,27 @@
 
 #define TEXTURE_NONE UINT32_MAX
 
+/* Whose arithmetic makes the picture: the original program's, or ours (wrt(5)). */
+enum scene_model { SCENE_CLASSIC, SCENE_MODERN };
+
 struct camera {
     struct vec3 origin;
     struct vec3 back; /* from the scene to the eye, any length */
     struct vec3 up;
-    double yfov;              /* degrees; half the field of view once times the aspect ratio */
+    double yfov;              /* degrees; classic: half the field of view once times the aspect
+                                 ratio; modern: the full vertical one, or 0: parallel rays */
+    double view_height;       /* of a picture by parallel rays */
     uint32_t width, height;   /* the scene's own resolution */
-    bool compatible;          /* compatMode 1; 0 negates the world z of directions */
+    bool compatible;          /* classic: compatMode 1; 0 negates the world z of directions */
+    bool modern;
 };
 
 struct texture {
     const struct image *image; /* one of the scene's */
-    bool linear;         /* bilinear filter, else nearest */
-    const char *file;    /* relative to the current folder */
+    bool linear;               /* bilinear filter, else nearest */
+    bool centred;              /* modern: texels are at their centres */
+    const double *decode;      /* modern: a sample's light, from 0 to 1; NULL: it over the largest */
+    const char *file;          /* relative to the current folder */
 };
 
 /* uv * scale + offset */
@@ -76,7 +84,7 @@ struct surface {
     uint32_t described;         /* its number among the description's surfaces */
 };
 
-enum light_kind { LIGHT_POINT, LIGHT_AREA };
+enum light_kind { LIGHT_POINT, LIGHT_AREA, LIGHT_SUN };
 
 /* A point of an area light's sample grid; equal points are merged. */
 struct light_point {
@@ -86,18 +94,34 @@ struct light_point {
     bool inside;      /* clearly inside a sphere: every ray through it meets the object */
 };
 
+/* A place on an area light's surface, modern. */
+struct light_sample {
+    struct vec3 position, normal;
+    double share; /* of the light's intensity, along the normal */
+};
+
 struct light {
     enum light_kind kind;
-    struct vec3 position, intensity;
+    struct vec3 position; /* sun: the unit direction to it */
+    struct vec3 intensity;
     bool inverse_square;
     /* area lights: */
     struct geometry object; /* not part of the scene's geometry */
-    VEC(struct light_point) points;
+    VEC(struct light_point) points;   /* classic */
+    VEC(struct light_sample) samples; /* modern: `grid` x `grid`, at their strata's centres */
+    VEC(double) areas;                /* modern: of the object's primitives and all before them */
+    uint32_t grid;
+    double growth;   /* modern: of the samples' areas, on average, when an instance is placed */
+    bool both_sides; /* modern: its normals have no outside */
     struct span span; /* where the scene text says it */
 };
 
 struct scene {
-    struct arena arena; /* owns normals, uvs and names */
+    struct arena arena; /* owns normals, uvs, decoding tables and names */
+    enum scene_model model;
+    struct vec3 background, ambient; /* modern */
+    uint32_t depth, grid;            /* of rays, and samples along a pixel, unless asked otherwise */
+    bool linear;                     /* modern: pictures hold light as it is, not sRGB */
     struct camera camera;
     struct geometry geometry;
     VEC(struct surface) surfaces;
@@ -115,8 +139,17 @@ void scene_free(struct scene *s);
  * complete.  samples >= 2. */
 void light_sample_grid(struct light *l, struct box box, uint32_t samples);
 
-/* Texel fetch at (u, v), by the original's rule: row 0 of the coordinates is the bottom.  Any u
- * and v will do; what is not a finite number fetches texel 0. */
+/* Makes ready the surface of an area light of `grid` x `grid` samples for modern, once l->object is
+ * complete.  False when it has no area. */
+bool light_surface(struct light *l, uint32_t grid);
+
+/* The place on the light's surface at (a, b), both from 0 to below 1: equal areas of one get equal
+ * areas of the other. */
+struct light_sample light_surface_at(const struct light *l, double a, double b);
+
+/* Texel fetch at (u, v): row 0 of the coordinates is the bottom; classic by the original's rule,
+ * modern with texels at their centres and repeated.  Any u and v will do; what is not a finite
+ * number fetches texel 0. */
 struct vec3 texture_fetch(const struct texture *t, double u, double v);
 
 /* Texture coordinates of a hit with unit sphere/cylinder/triangle parametrisation (surface.c);
@@ -128,5 +161,21 @@ struct vec2 surface_uv(const struct scene *s, const struct surface *surface, con
  * flipped where asked. */
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
                            const struct hit *hit, struct vec3 geometric);
+
+/* The triangle's number within its surface, to which normals and texture coordinates belong. */
+size_t surface_face(const struct surface *surface, const struct spot *spot);
+
+/* The normal of corner i of a smooth mesh's triangle, in its shape's space. */
+struct vec3 surface_corner_normal(const struct surface *surface, const struct spot *spot, int i);
+
+/* Where shadow rays from the point p of a smooth mesh start: raised, on the side that `outwards`
+ * shows to, onto the surface that the normals suggest, so that the flat faces do not shadow it
+ * (Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021, ch. 4). */
+struct vec3 surface_lift(const struct scene *s, const struct surface *surface,
+                         const struct hit *hit, struct vec3 p, struct vec3 outwards);
+
+/* Unit vectors along which the texture coordinates u and v grow, across the normal. */
+void surface_frame(const struct scene *s, const struct surface *surface, const struct hit *hit,
+                   struct vec3 p, struct vec3 normal, struct vec3 *x, struct vec3 *y);
 
 #endif

@@ -36,8 +36,7 @@ static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)
     return (struct vec2){z <= 0 ? -(0.5 + turn) : -turn, clamp(along / c->height, 0, 1)};
 }
 
-/* The triangle's number within its surface, to which normals and texture coordinates belong. */
-static size_t face_of(const struct surface *surface, const struct spot *spot)
+size_t surface_face(const struct surface *surface, const struct spot *spot)
 {
     return spot->instance ? spot->prim : spot->prim - surface->first_prim;
 }
@@ -55,10 +54,19 @@ struct vec2 surface_uv(const struct scene *s, const struct surface *surface, con
         return cylinder_uv(&spot.geometry->cylinders.at[prim.index], p);
     if (surface->uvs == NULL)
         return (struct vec2){0, 0};
-    const struct vec2 *uv = surface->uvs + 3 * face_of(surface, &spot);
+    const struct vec2 *uv = surface->uvs + 3 * surface_face(surface, &spot);
     double b0 = 1 - hit->b1 - hit->b2;
     return (struct vec2){b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
                          b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y};
+}
+
+struct vec3 surface_corner_normal(const struct surface *surface, const struct spot *spot, int i)
+{
+    const struct geometry *g = spot->geometry;
+    const struct triangle *t = &g->triangles.at[g->prims.at[spot->prim].index];
+    const struct triangle_corners *own = surface->normal_corners;
+    uint32_t at = own ? own[surface_face(surface, spot)].at[i] : t->vertex[i];
+    return surface->normals[own || spot->instance ? at : at - surface->first_vertex];
 }
 
 /* Where the vertex normals cancel out, the face's own is taken. */
@@ -66,17 +74,12 @@ static struct vec3 smooth_normal(const struct surface *surface, const struct spo
                                  const struct hit *hit)
 {
     const struct geometry *g = spot->geometry;
-    const struct triangle *t = &g->triangles.at[g->prims.at[spot->prim].index];
-    const struct vec3 *normals = surface->normals;
-    const struct triangle_corners *own = surface->normal_corners;
-    const uint32_t *at = own ? own[face_of(surface, spot)].at : t->vertex;
-    uint32_t first = own || spot->instance ? 0 : surface->first_vertex;
-    struct vec3 n = vec3_scale(normals[at[0] - first], 1 - hit->b1 - hit->b2);
-    n = vec3_mad(n, hit->b1, normals[at[1] - first]);
-    n = vec3_mad(n, hit->b2, normals[at[2] - first]);
+    struct vec3 n = vec3_scale(surface_corner_normal(surface, spot, 0), 1 - hit->b1 - hit->b2);
+    n = vec3_mad(n, hit->b1, surface_corner_normal(surface, spot, 1));
+    n = vec3_mad(n, hit->b2, surface_corner_normal(surface, spot, 2));
     bool cancelled = !(vec3_largest(n) > 0);
     if (cancelled)
-        n = t->normal;
+        n = g->triangles.at[g->prims.at[spot->prim].index].normal;
     if (spot->instance)
         n = affine_normal(&spot->instance->to_shape, n);
     return cancelled && !spot->instance ? n : vec3_normalize(n);

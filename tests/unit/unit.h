@@ -18,6 +18,7 @@ Suite *instance_suite(void);
 Suite *lower_suite(void);
 Suite *mesh_suite(void);
 Suite *print_suite(void);
+Suite *modern_suite(void);
 Suite *render_suite(void);
 Suite *schema_suite(void);
 Suite *syntax_suite(void);

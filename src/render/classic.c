@@ -1,0 +1,78 @@
+/* The original program's light and rays; each kernel set has the arithmetic of its lights. */
+#include "config.h"
+
+#include "render/tracer.h"
+
+static void classic_light(struct worker *w)
+{
+    const struct tracer *t = w->tracer;
+    uint32_t n = w->points.n;
+    double shares[BATCH_ROOM];
+    vec3_fill(&w->light.direct, n, vec3_all(0));
+    vec3_fill(&w->light.intensity, n, vec3_all(0));
+    if (n == 0)
+        return;
+    struct box box = t->kernels->bounds(&w->points.p, n);
+    fill(shares + n, BATCH_ROOM - n, 0);
+    for (size_t k = 0; k < t->scene->lights.n; k++) {
+        lamp_shares(w, &t->lamps[k], box, shares);
+        t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
+    }
+}
+
+/* Which surface a refracted ray is tested against alone before all others. */
+static uint32_t surface_crossed(const struct scene *scene, uint32_t surface, bool inside)
+{
+    enum surface_kind kind = scene->surfaces.at[surface].kind;
+    if (kind == SURFACE_SPHERE || kind == SURFACE_CYLINDER)
+        return surface;
+    return kind == SURFACE_MESH && !inside ? surface : SURFACE_NONE;
+}
+
+/* `index` is that of the arriving ray. */
+static void add_refraction(struct level *level, const struct scene *scene,
+                           const struct shade_batch *points, uint32_t k, double index,
+                           struct vec3 weight)
+{
+    struct shade_point s = shade_point_get(points, k);
+    bool inside = points->inside[k];
+    double ior = s.finish->material->ior, eta = inside ? ior : index / ior;
+    struct vec3 normal = inside ? vec3_neg(s.normal) : s.normal;
+    double c = inside ? s.facing : -s.facing, root = 1 - eta * eta * (1 - c * c);
+    if (!(root > 0))
+        return;
+    struct vec3 direction = vec3_scale(s.incoming, eta);
+    direction = vec3_mad(direction, eta * c - sqrt(root), normal);
+    struct path path = {.weight = weight,
+                        .parent = points->ray[k],
+                        .crossed = surface_crossed(scene, s.surface, inside),
+                        .index = inside ? 1 : ior};
+    spawn_ray(&level->refracted, points, k, direction, &path);
+}
+
+/* The rays' share does not depend on the light, so each is traced once, for the sum of all lights.
+ */
+static void classic_spawn(struct worker *w, struct level *level, const struct path *paths)
+{
+    const struct shade_batch *points = &w->points;
+    struct vec3_batch mirrored;
+    w->tracer->kernels->reflect(points, &mirrored);
+    for (uint32_t k = 0; k < points->n; k++) {
+        const struct material *m = points->finish[k]->material;
+        uint32_t ray = points->ray[k];
+        if (!points->finish[k]->bounces)
+            continue;
+        struct vec3 intensity = vec3_get(&w->light.intensity, k);
+        struct vec3 reflected = vec3_mul(intensity, m->reflection);
+        struct vec3 refracted = vec3_mul(intensity, m->refraction);
+        struct path path = {
+            .weight = reflected, .parent = ray, .crossed = SURFACE_NONE, .index = 1};
+        if (!vec3_is_zero(reflected))
+            spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k), &path);
+        if (!vec3_is_zero(refracted))
+            add_refraction(level, w->tracer->scene, points, k, paths ? paths[ray].index : 1,
+                           refracted);
+    }
+}
+
+const struct shading shading_classic = {classic_light, classic_spawn};

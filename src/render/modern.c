@@ -1,0 +1,288 @@
+/* Light and rays of `model modern`; wrt(5) has the formulas. */
+#include "config.h"
+
+#include "math/rng.h"
+#include "render/tracer.h"
+
+#include <string.h>
+
+/* A point as its eye sees it: all normals on the eye's side. */
+struct seen_point {
+    struct shade_point s;
+    struct vec3 normal, smooth, geometric;
+    struct vec3 lifted; /* where shadow rays start */
+};
+
+static struct seen_point seen_point_get(const struct shade_batch *points, uint32_t k)
+{
+    struct seen_point seen = {.s = shade_point_get(points, k)};
+    seen.normal = seen.s.normal;
+    seen.smooth = vec3_get(&points->smooth, k);
+    seen.geometric = vec3_get(&points->geometric, k);
+    seen.lifted = vec3_get(&points->lifted, k);
+    if (vec3_dot(seen.geometric, seen.s.incoming) > 0) {
+        seen.normal = vec3_neg(seen.normal);
+        seen.smooth = vec3_neg(seen.smooth);
+        seen.geometric = vec3_neg(seen.geometric);
+    }
+    return seen;
+}
+
+/* How much of the light on a bent normal is let through, so that it fades out before the surface
+ * itself turns away: Chiang, Li, Burley, Taming the shadow terminator, SIGGRAPH talks 2019. */
+static double terminator(double cosine, double smooth_cosine, double between)
+{
+    double g = smooth_cosine / (cosine * between);
+    return g < 1 && between > 0 ? g * (1 + g * (1 - g)) : 1;
+}
+
+/* What is reflected of light of strength 1 from a unit direction; nothing from behind. */
+static struct vec3 reflected_light(const struct seen_point *p, struct vec3 to_light)
+{
+    const struct finish *f = p->s.finish;
+    double cosine = vec3_dot(p->normal, to_light);
+    double smooth_cosine = vec3_dot(p->smooth, to_light);
+    if (!(cosine > 0 && smooth_cosine > 0))
+        return vec3_all(0);
+    double mirrored =
+        vec3_dot(p->s.incoming, to_light) - 2 * cosine * vec3_dot(p->normal, p->s.incoming);
+    struct vec3 light = vec3_scale(p->s.diffuse, cosine);
+    if (mirrored > 0)
+        light = vec3_mad(light, finish_highlight(f, mirrored), f->specular);
+    return vec3_scale(light, terminator(cosine, smooth_cosine, vec3_dot(p->normal, p->smooth)));
+}
+
+/* ---- point lights and suns ------------------------------------------------------------------- */
+
+static void add_single(struct worker *w, const struct light *light, const double *shares)
+{
+    for (uint32_t k = 0; k < w->points.n; k++) {
+        if (shares[k] == 0 || w->points.finish[k]->glows)
+            continue;
+        struct seen_point p = seen_point_get(&w->points, k);
+        struct vec3 to_light = light->position;
+        double strength = 1;
+        if (light->kind == LIGHT_POINT) {
+            struct vec3 way = vec3_sub(light->position, p.s.p);
+            double square = vec3_dot(way, way);
+            to_light = vec3_scale(way, 1 / sqrt(square));
+            strength = light->inverse_square ? 1 / square : 1;
+        }
+        struct vec3 lit = vec3_mul(reflected_light(&p, to_light), light->intensity);
+        struct vec3 sum = vec3_get(&w->light.direct, k);
+        vec3_put(&w->light.direct, k, vec3_mad(sum, strength, lit));
+    }
+}
+
+/* ---- area lights ----------------------------------------------------------------------------- */
+
+/* Where in its stratum sample (i, j) is: in the middle, or at random by the point itself, so that
+ * neither threads nor tiles matter. */
+static struct light_sample sample_at(const struct tracer *t, const struct light *light,
+                                     struct vec3 p, uint32_t number)
+{
+    uint64_t x, y, z;
+    if (!t->options->jitter)
+        return light->samples.at[number];
+    memcpy(&x, &p.x, sizeof x);
+    memcpy(&y, &p.y, sizeof y);
+    memcpy(&z, &p.z, sizeof z);
+    uint64_t key = x ^ (y << 21 | y >> 43) ^ (z << 42 | z >> 22);
+    double a = rng_uniform(t->options->seed, key, number, 0);
+    double b = rng_uniform(t->options->seed, key, number, 1);
+    return light_surface_at(light, (number / light->grid + a) / light->grid,
+                            (number % light->grid + b) / light->grid);
+}
+
+/* What the sample gives the point if nothing is in the way. */
+static struct vec3 sample_light(const struct light *light, const struct light_sample *sample,
+                                const struct seen_point *p)
+{
+    struct vec3 way = vec3_sub(sample->position, p->s.p);
+    double square = vec3_dot(way, way);
+    struct vec3 to_light = vec3_scale(way, 1 / sqrt(square));
+    double cosine = -vec3_dot(sample->normal, to_light);
+    if (light->both_sides)
+        cosine = fabs(cosine);
+    if (!(cosine > 0))
+        return vec3_all(0);
+    double strength = sample->share * cosine / (light->inverse_square ? square : 1);
+    return vec3_scale(vec3_mul(reflected_light(p, to_light), light->intensity), strength);
+}
+
+/* The samples that are to be tried, and what each gives. */
+struct trial {
+    struct vec3 gives[BATCH];
+    struct vec3 sum;
+};
+
+static void finish_trial(struct worker *w, const struct target_list *list, bool open,
+                         struct trial *trial)
+{
+    bool blocked[BATCH] = {false};
+    if (w->shadow_rays.n > 0 && !open)
+        find_blocked(w, list, blocked);
+    else
+        w->stats.shadow_skipped += w->shadow_rays.n;
+    for (uint32_t i = 0; i < w->shadow_rays.n; i++)
+        if (!blocked[i])
+            trial->sum = vec3_add(trial->sum, trial->gives[i]);
+    w->shadow_rays.n = 0;
+}
+
+static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
+                              const struct target_list *list, const struct seen_point *p, bool open)
+{
+    const struct light *light = lamp->light;
+    struct ray_batch *rays = &w->shadow_rays;
+    struct trial trial = {.sum = vec3_all(0)};
+    rays->n = 0;
+    rays->common_origin = true;
+    for (uint32_t number = 0; number < light->samples.n; number++) {
+        struct light_sample sample = sample_at(w->tracer, light, p->s.p, number);
+        struct vec3 gives = sample_light(light, &sample, p);
+        if (vec3_is_zero(gives))
+            continue;
+        uint32_t i = rays->n++;
+        trial.gives[i] = gives;
+        vec3_put(&rays->origin, i, p->lifted);
+        vec3_put(&rays->direction, i, vec3_sub(sample.position, p->lifted));
+        rays->t_max[i] = shadow_reach(w->tracer, light);
+        rays->from[i] = p->s.prim;
+        if (rays->n == BATCH)
+            finish_trial(w, list, open, &trial);
+    }
+    finish_trial(w, list, open, &trial);
+    return trial.sum;
+}
+
+static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
+{
+    struct target_list batch = {.usable = false}, own;
+    if (w->tracer->skips && w->points.n > 1)
+        list_shadowers(w->tracer, lamp, box, &batch);
+    for (uint32_t k = 0; k < w->points.n; k++) {
+        if (w->points.finish[k]->glows)
+            continue;
+        struct seen_point p = seen_point_get(&w->points, k);
+        struct shade_point from = p.s;
+        from.p = p.lifted;
+        enum lamp_view view = lamp_view(w, lamp, &batch, &from, &own);
+        if (view == LAMP_HIDDEN) {
+            w->stats.shadow_skipped += lamp->light->samples.n;
+            continue;
+        }
+        struct vec3 light = area_light(w, lamp, &own, &p, view == LAMP_OPEN);
+        vec3_put(&w->light.direct, k, vec3_add(vec3_get(&w->light.direct, k), light));
+    }
+}
+
+static void modern_light(struct worker *w)
+{
+    const struct tracer *t = w->tracer;
+    struct shade_batch *points = &w->points;
+    double shares[BATCH_ROOM];
+    if (points->n == 0)
+        return;
+    for (uint32_t k = 0; k < points->n; k++) {
+        struct vec3 diffuse = vec3_get(&points->diffuse, k);
+        bool glows = points->finish[k]->glows;
+        vec3_put(&w->light.direct, k, glows ? diffuse : vec3_mul(diffuse, t->scene->ambient));
+    }
+    struct box box = t->kernels->bounds(&points->lifted, points->n);
+    for (size_t i = 0; i < t->scene->lights.n; i++) {
+        const struct light *light = &t->scene->lights.at[i];
+        if (light->kind == LIGHT_AREA) {
+            add_area(w, &t->lamps[i], box);
+            continue;
+        }
+        lamp_shares(w, &t->lamps[i], box, shares);
+        add_single(w, light, shares);
+    }
+}
+
+/* ---- mirrored and refracted rays ------------------------------------------------------------- */
+
+/* Back to length 1 from near it: a step of Newton's iteration. */
+static struct vec3 renormalized(struct vec3 d)
+{
+    return vec3_scale(d, 1.5 - 0.5 * vec3_dot(d, d));
+}
+
+/* The mirrored direction; one that a bent normal sends below the primitive is bent back. */
+static struct vec3 mirrored(const struct seen_point *p)
+{
+    struct vec3 d = p->s.incoming;
+    d = vec3_mad(d, -2 * vec3_dot(p->normal, d), p->normal);
+    double below = vec3_dot(d, p->geometric);
+    if (below < 0)
+        d = vec3_mad(d, -2 * below, p->geometric);
+    return renormalized(d);
+}
+
+static double index_inside(const struct scene *scene, const struct media *media)
+{
+    if (media->n == 0)
+        return 1;
+    uint32_t surface = media->surface[media->n - 1];
+    return scene->materials.at[scene->surfaces.at[surface].material].ior;
+}
+
+/* The media beyond the surface: it is entered, or left wherever it stands among them. */
+static struct media media_beyond(const struct media *media, uint32_t surface, bool entering)
+{
+    struct media beyond = {0};
+    for (uint32_t i = 0; i < media->n; i++)
+        if (entering || media->surface[i] != surface)
+            beyond.surface[beyond.n++] = media->surface[i];
+    if (entering && beyond.n < MEDIA_LIMIT)
+        beyond.surface[beyond.n++] = surface;
+    return beyond;
+}
+
+/* Snell's law, by the sine, which near the critical angle keeps the digits that 1 - c^2 loses;
+ * false for total reflection. */
+static bool refracted(const struct seen_point *p, double eta, struct vec3 *direction)
+{
+    double c = -vec3_dot(p->normal, p->s.incoming);
+    double s = vec3_length(vec3_cross(p->normal, p->s.incoming)), k = (1 - eta * s) * (1 + eta * s);
+    if (!(k >= 0 && c > 0))
+        return false;
+    struct vec3 d = vec3_mad(vec3_scale(p->s.incoming, eta), eta * c - sqrt(k), p->normal);
+    *direction = renormalized(d);
+    return vec3_dot(*direction, p->geometric) < 0;
+}
+
+static void spawn_from(struct worker *w, struct level *level, const struct path *paths, uint32_t k)
+{
+    static const struct media outside = {0};
+    const struct scene *scene = w->tracer->scene;
+    struct seen_point p = seen_point_get(&w->points, k);
+    const struct material *m = p.s.finish->material;
+    uint32_t ray = w->points.ray[k];
+    const struct media *media = paths ? &paths[ray].media : &outside;
+    struct vec3 reflection = m->reflection, direction;
+    if (!vec3_is_zero(m->refraction)) {
+        bool entering = vec3_dot(vec3_get(&w->points.geometric, k), p.s.incoming) < 0;
+        struct path path = {.weight = m->refraction,
+                            .parent = ray,
+                            .media = media_beyond(media, p.s.surface, entering)};
+        double before = entering || media->n > 0 ? index_inside(scene, media) : m->ior;
+        if (refracted(&p, before / index_inside(scene, &path.media), &direction))
+            spawn_ray(&level->refracted, &w->points, k, direction, &path);
+        else
+            reflection = vec3_add(reflection, m->refraction);
+    }
+    struct path path = {.weight = reflection, .parent = ray, .media = *media};
+    if (!vec3_is_zero(reflection))
+        spawn_ray(&level->reflected, &w->points, k, mirrored(&p), &path);
+}
+
+static void modern_spawn(struct worker *w, struct level *level, const struct path *paths)
+{
+    for (uint32_t k = 0; k < w->points.n; k++)
+        if (w->points.finish[k]->bounces)
+            spawn_from(w, level, paths, k);
+}
+
+const struct shading shading_modern = {modern_light, modern_spawn};
