@@ -206,6 +206,29 @@ char *file_relative(const char *beside, const char *path)
     return relative ? relative : strcpy(mem_alloc(strlen(path) + 1, 1), path);
 }
 
+bool file_same_folder(const char *a, const char *b)
+{
+    char *folder_a = real_folder(a), *folder_b = real_folder(b);
+    bool same = !folder_a || !folder_b || strcmp(folder_a, folder_b) == 0;
+    free(folder_a);
+    free(folder_b);
+    return same;
+}
+
+char *file_relocate(const char *from, const char *to, const char *name, size_t name_length)
+{
+    char *there = real_folder(from), *here = real_folder(to), *moved = NULL;
+    bool absolute = name_length && name[0] == '/';
+    if (!absolute && there && here && strcmp(there, here) != 0) {
+        char *ended = memcpy(mem_zalloc(name_length + 1, 1), name, name_length);
+        moved = climb(here, there, ended);
+        free(ended);
+    }
+    free(there);
+    free(here);
+    return moved;
+}
+
 bool file_identify(const char *path, struct file_id *id)
 {
     struct stat st;

@@ -31,6 +31,14 @@ char *file_resolve(const char *beside, const char *name, size_t name_length);
  * Caller frees. */
 char *file_relative(const char *beside, const char *path);
 
+/* The relative `name` as spelt in a file at `from`, for one at `to`: from the folder of one to that
+ * of the other, then the name.  NULL when it stays the same: the name is absolute, or the folders are
+ * one (or cannot be told).  Caller frees. */
+char *file_relocate(const char *from, const char *to, const char *name, size_t name_length);
+
+/* True when the two paths lie in one folder, as far as can be told. */
+bool file_same_folder(const char *a, const char *b);
+
 /* Identity of an existing file, to load each one once; false when it cannot be told. */
 struct file_id {
     uint64_t device, inode;

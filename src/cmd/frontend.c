@@ -89,6 +89,20 @@ bool frontend_parse(struct frontend *f, const char *path)
     return s && syntax_parse(s, &f->ast, &f->diag);
 }
 
+bool frontend_load_text(struct frontend *f, const char *path, struct str text,
+                        const struct options *o)
+{
+    char *copy = mem_alloc(text.n + 2, 1);
+    frontend_init(f);
+    memcpy(copy, text.at, text.n);
+    const struct source *s = srcmap_add(&f->sources, path, copy, text.n);
+    if (!s)
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "the result is too large");
+    if (s && syntax_parse(s, &f->ast, &f->diag))
+        evaluate(f, o, true);
+    return f->diag.errors == 0;
+}
+
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)
 {
     double start = thread_seconds();

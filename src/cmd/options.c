@@ -252,6 +252,12 @@ static bool take(enum opt o, const char *argument, struct options *out)
         return take_stats(argument, out);
     case OPT_FORMAT:
         return take_format(text, out);
+    case OPT_EXPAND:
+        return out->expand = true;
+    case OPT_REBASE:
+        return out->rebase = true;
+    case OPT_NO_VERIFY:
+        return out->no_verify = true;
     case OPT_IN_PLACE:
         return out->in_place = true;
     case OPT_CHECK:

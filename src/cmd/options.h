@@ -16,13 +16,17 @@ enum {
     FOR_UV = 4,
     FOR_DOC = 8,
     FOR_FMT = 16,
+    FOR_DIFF = 32,
     FOR_CONVERT = 64,
     FOR_INFO = 128,
     FOR_ALL = 255
 };
 
 /* Those that read a scene, and those that report on what they read. */
-enum { FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_CONVERT | FOR_INFO, FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT };
+enum {
+    FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_DIFF | FOR_CONVERT | FOR_INFO,
+    FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT
+};
 
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
@@ -44,6 +48,7 @@ struct options {
     enum isa isa;
     enum stats_format stats;
     enum diag_format format;
+    bool expand, rebase, no_verify;
     bool in_place, check, difference;
     bool jitter, brute_force, no_skip, quiet, verbose;
     bool manual, json, deps, behind;

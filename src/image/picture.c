@@ -135,6 +135,17 @@ void image_free(struct image *i)
     free(i);
 }
 
+bool image_equal(const struct image *a, const struct image *b)
+{
+    size_t channels = 3 * (size_t)a->width * a->height;
+    if (a == b)
+        return true;
+    if (a->width != b->width || a->height != b->height || !a->data8 != !b->data8)
+        return false;
+    return a->data8 ? memcmp(a->data8, b->data8, channels) == 0
+                    : memcmp(a->data16, b->data16, channels * sizeof *a->data16) == 0;
+}
+
 /* c from 0 to 1, bounds left out. */
 static uint8_t plain_byte(double c)
 {

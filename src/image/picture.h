@@ -52,6 +52,8 @@ enum { IMAGE_REASON_BYTES = 256 };
  * shortened file never gives a picture. */
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 void image_free(struct image *i);
+/* The same size and pixels. */
+bool image_equal(const struct image *a, const struct image *b);
 
 enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM };
 

@@ -12,9 +12,22 @@ static char byte_at(const struct ast *ast, uint32_t offset)
     return ast->source->text[offset - ast->source->base];
 }
 
-struct gap gap_at_start(const struct ast *ast)
+static bool is_blank(char c)
 {
-    return (struct gap){.ast = ast, .at = ast->source->base, .separators = ""};
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+struct gap gap_at(const struct ast *ast, uint32_t offset)
+{
+    size_t first = 0, last = ast->trivia.n; /* the first comment not before the place */
+    while (first < last) {
+        size_t middle = first + (last - first) / 2;
+        if (ast->trivia.at[middle].span.begin < offset)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    return (struct gap){.ast = ast, .at = offset, .comment = first, .separators = ""};
 }
 
 static void skip_blanks(struct gap *g)
@@ -22,7 +35,7 @@ static void skip_blanks(struct gap *g)
     unsigned run = g->newlines;
     for (; g->at < text_end(g->ast); g->at++) {
         char c = byte_at(g->ast, g->at);
-        bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+        bool blank = is_blank(c);
         if (!blank && !memchr(g->separators, c, strlen(g->separators)))
             break;
         run = blank ? run + (c == '\n') : 0;
@@ -61,6 +74,24 @@ void gap_move(struct gap *g, uint32_t to)
     g->newlines = 0;
     while (g->comment < ast->trivia.n && ast->trivia.at[g->comment].span.begin < to)
         g->comment++;
+}
+
+bool gap_blank_before(const struct ast *ast, uint32_t offset)
+{
+    unsigned newlines = 0;
+    for (; offset > ast->source->base && is_blank(byte_at(ast, offset - 1)); offset--)
+        newlines += byte_at(ast, offset - 1) == '\n';
+    return newlines > 1;
+}
+
+uint32_t gap_content(const struct ast *ast, const struct ast_node *element)
+{
+    uint32_t at = element->name_span.end;
+    for (const struct ast_node *c = element->children; c && c->kind == AST_ATTRIBUTE; c = c->next)
+        at = c->span.end;
+    while (byte_at(ast, at) != '>')
+        at++;
+    return at + 1;
 }
 
 unsigned gap_column(const struct ast *ast, uint32_t offset)

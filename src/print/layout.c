@@ -32,6 +32,13 @@ static unsigned columns_of(struct str s)
     return n;
 }
 
+static struct str without_end_blanks(struct str s)
+{
+    while (s.n && memchr(" \t\r", s.at[s.n - 1], 3))
+        s.n--;
+    return s;
+}
+
 static void push(struct layout *l, struct layout_item item)
 {
     vec_push(&l->items, item);
@@ -66,7 +73,7 @@ void layout_comment(struct layout *l, struct str text, unsigned column)
                                  .text = text,
                                  .column = column,
                                  .end = first.n,
-                                 .number = (int32_t)columns_of(first)});
+                                 .number = (int32_t)columns_of(without_end_blanks(first))});
 }
 
 void layout_break(struct layout *l, struct layout_break b)
@@ -101,21 +108,24 @@ void layout_close(struct layout *l)
 
 /* ---- widths ---- */
 
-/* Columns that the items take when nothing breaks from the one at `from` on until a line may end
- * outside all groups that begin there; counting ends when it is clear that they are too many. */
-static unsigned width_to_break(const struct layout *l, size_t from)
+/* Columns that the items from the one at `from` on take in one line, up to where it may end: a
+ * group (least 1) or what stands between two breaks of one (least 0), and behind that up to the
+ * next break of any group.  Counting ends when it is clear that they are too many. */
+static unsigned width_to_break(const struct layout *l, size_t from, int least)
 {
     unsigned width = 0;
+    bool behind = false;
     int depth = 0;
     for (size_t i = from; i < l->items.n && width <= LAYOUT_COLUMNS; i++) {
         const struct layout_item *item = &l->items.at[i];
-        bool ends = item->kind == ITEM_LINE || (item->kind == ITEM_BREAK && depth <= 0) ||
-                    (item->kind == ITEM_COMMENT && item->end < item->text.n);
-        if (ends)
+        if (item->kind == ITEM_LINE || (item->kind == ITEM_BREAK && (behind || depth <= 0)))
             break;
         depth += (item->kind == ITEM_OPEN) - (item->kind == ITEM_CLOSE);
+        behind |= depth < least;
         if (item->kind == ITEM_TEXT || item->kind == ITEM_COMMENT || item->kind == ITEM_BREAK)
             width += (unsigned)item->number;
+        if (item->kind == ITEM_COMMENT && item->end < item->text.n)
+            break;
     }
     return width;
 }
@@ -123,16 +133,19 @@ static unsigned width_to_break(const struct layout *l, size_t from)
 static bool fits(const struct layout *l, size_t from)
 {
     unsigned column = l->begun ? l->column : l->nest;
-    return column + width_to_break(l, from) <= LAYOUT_COLUMNS;
+    return column + width_to_break(l, from, 1) <= LAYOUT_COLUMNS;
 }
 
-/* What stands between this break of a filled group and the next holds a line end. */
+/* The line that begins with this break of a filled group, if it does, breaks a group before the
+ * next. */
 static bool broken_ahead(const struct layout *l, size_t from)
 {
     int depth = 0;
     for (size_t i = from; i < l->items.n && depth >= 0; i++) {
         const struct layout_item *item = &l->items.at[i];
-        if (item->kind == ITEM_BREAK && depth == 0)
+        bool line =
+            item->kind == ITEM_LINE || (item->kind == ITEM_COMMENT && item->end < item->text.n);
+        if (line || (item->kind == ITEM_BREAK && depth == 0))
             return false;
         if (item->kind == ITEM_OPEN && item->broken)
             return true;
@@ -171,13 +184,6 @@ static void end_line(struct layout *l, bool blank, unsigned extra)
     }
 }
 
-static struct str without_end_blanks(struct str s)
-{
-    while (s.n && memchr(" \t\r", s.at[s.n - 1], 3))
-        s.n--;
-    return s;
-}
-
 static void write_comment(struct layout *l, const struct layout_item *item)
 {
     struct str rest = item->text;
@@ -205,9 +211,9 @@ static void write_comment(struct layout *l, const struct layout_item *item)
 static void write_break(struct layout *l, size_t i, bool flat)
 {
     const struct layout_item *item = &l->items.at[i];
-    bool stay =
-        flat || (item->fill && !broken_ahead(l, i + 1) &&
-                 l->column + (unsigned)item->number + width_to_break(l, i + 1) <= LAYOUT_COLUMNS);
+    bool stay = flat || (item->fill && !broken_ahead(l, i + 1) &&
+                         l->column + (unsigned)item->number + width_to_break(l, i + 1, 0) <=
+                             LAYOUT_COLUMNS);
     if (!stay)
         end_line(l, item->blank, 0);
     else if (l->begun) {

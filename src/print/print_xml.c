@@ -23,18 +23,6 @@ static uint32_t closing_tag(const struct printing *p, const struct ast_node *n)
     return at;
 }
 
-/* Where the content of an element begins: behind the `>` that follows its name or attributes. */
-static uint32_t content_begin(const struct printing *p, const struct ast_node *n)
-{
-    uint32_t at = n->name_span.end;
-    const struct ast_node *c = n->children;
-    for (; c && c->kind == AST_ATTRIBUTE; c = c->next)
-        at = c->span.end;
-    while (byte_at(p, at) != '>')
-        at++;
-    return at + 1;
-}
-
 static bool is_space(char c)
 {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -84,7 +72,7 @@ static struct str keep(struct printing *p, struct buffer *text)
 static void print_leaf(struct printing *p, const struct ast_node *n)
 {
     struct buffer text = {0};
-    uint32_t begin = content_begin(p, n), end = closing_tag(p, n);
+    uint32_t begin = gap_content(p->ast, n), end = closing_tag(p, n);
     struct str content = begin < end ? str_trim(print_source(p, begin, end)) : (struct str){0};
     put_start(p, &text, n);
     if (content.n) {
@@ -136,7 +124,7 @@ static void print_element(struct printing *p, const struct ast_node *n)
     }
     put_start(p, &text, n);
     buffer_puts(&text, ">");
-    print_as(p, content_begin(p, n), keep(p, &text));
+    print_as(p, gap_content(p->ast, n), keep(p, &text));
     layout_indent(&p->layout, LAYOUT_INDENT);
     p->opened = true;
     print_flush(p);

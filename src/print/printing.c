@@ -179,7 +179,7 @@ void print_flush(struct printing *p)
 
 void print_scene(const struct ast *ast, struct buffer *out)
 {
-    struct printing p = {.ast = ast, .gap = gap_at_start(ast), .layout = {.out = out}};
+    struct printing p = {.ast = ast, .gap = gap_at(ast, ast->source->base), .layout = {.out = out}};
     (ast->xml ? print_xml : print_native)(&p);
     print_flush(&p);
     layout_free(&p.layout);

@@ -28,6 +28,7 @@ int main(void)
     srunner_add_suite(runner, render_suite());
     srunner_add_suite(runner, texture_suite());
     srunner_add_suite(runner, transform_suite());
+    srunner_add_suite(runner, translate_suite());
     srunner_run_all(runner, CK_ENV);
     int failed = srunner_ntests_failed(runner);
     srunner_free(runner);

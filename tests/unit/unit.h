@@ -24,5 +24,6 @@ Suite *schema_suite(void);
 Suite *syntax_suite(void);
 Suite *texture_suite(void);
 Suite *transform_suite(void);
+Suite *translate_suite(void);
 
 #endif
