@@ -21,7 +21,8 @@ static void print_difference(const struct source *before, struct str after)
 {
     struct buffer difference = {0};
     linediff(before->name, (struct str){before->text, before->n}, before->name, after, &difference);
-    fwrite(difference.at, 1, difference.n, stdout);
+    if (difference.n > 0)
+        fwrite(difference.at, 1, difference.n, stdout);
     buffer_free(&difference);
 }
 
