@@ -87,6 +87,7 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %left STAR SLASH PERCENT
 %precedence NOT SIGN
 %right CARET
+%precedence DOT LBRACKET
 
 /* XML; the scanner's side keeps tags balanced (syntax/balance.c) */
 %token <text> XML_OPEN "opening tag" XML_ATTRIBUTE "attribute" XML_VALUE "quoted value"
@@ -96,8 +97,8 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %nterm <list> statements members block
 %nterm <list> parameters parameter_list arguments argument_list
 %nterm <list> values components attributes
-%nterm <node> statement if body member property
-%nterm <node> parameter argument value construct expression primary
+%nterm <node> statement if body member
+%nterm <node> parameter argument value construct expression
 %nterm <node> element attribute
 %nterm <text> property_name
 %nterm <content> content
@@ -218,16 +219,12 @@ members:
 ;
 
 member:
-  property
-| statement
-;
-
-property:
   property_name COLON value
     { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name), $value); }
 | property_name COLON error
     { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name),
                     ast_node(p->ast, AST_ERROR, @error)); }
+| statement
 ;
 
 property_name: NAME | MATERIAL | TEXTURE;
@@ -241,8 +238,33 @@ construct:
   NAME block  { $$ = ast_holding(ast_named(p->ast, AST_CONSTRUCT, @$, $NAME, @NAME), $block); }
 ;
 
+/* Literals first: most values are nothing else. */
 expression:
-  primary
+  NUMBER       { $$ = parser_number(p, AST_NUMBER, @$, $1); }
+| DEGREES      { $$ = parser_number(p, AST_ANGLE, @$, $1); }
+| RADIANS      { $$ = parser_number(p, AST_ANGLE, @$, $1); $$->unit = AST_RADIANS; }
+| STRING       { $$ = ast_text(p->ast, AST_STRING, @$, $1); }
+| COLOUR       { $$ = parser_colour(p, @$, $1); }
+| TRUE         { $$ = ast_node(p->ast, AST_BOOL, @$); $$->boolean = true; }
+| FALSE        { $$ = ast_node(p->ast, AST_BOOL, @$); }
+| NAME         { $$ = ast_named(p->ast, AST_NAME, @$, $1, @1); }
+| NAME LPAREN arguments RPAREN
+    { $$ = ast_holding(ast_named(p->ast, AST_CALL, @$, $NAME, @NAME), $arguments); }
+| LPAREN value RPAREN                 { $$ = ast_with(ast_node(p->ast, AST_PARENTHESES, @$), $2); }
+| LPAREN components[list] COMMA expression[last] RPAREN
+    { $$ = ast_holding(ast_node(p->ast, AST_VECTOR, @$), ast_append($list, $last)); }
+| LBRACKET values RBRACKET            { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
+| LBRACKET values COMMA RBRACKET      { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
+| LBRACKET RBRACKET                   { $$ = ast_node(p->ast, AST_LIST, @$); }
+| LBRACKET value FOR NAME IN expression[sequence] RBRACKET
+    { $$ = ast_holding(ast_named(p->ast, AST_COMPREHENSION, @$, $NAME, @NAME),
+                       ast_pair($value, $sequence)); }
+| expression[base] DOT NAME
+    { $$ = ast_select(p->ast, @$, $base,
+                      ast_named(p->ast, AST_MEMBER, span_join(@2, @NAME), $NAME, @NAME)); }
+| expression[base] LBRACKET expression[index] RBRACKET[end]
+    { $$ = ast_select(p->ast, @$, $base,
+                      ast_with(ast_node(p->ast, AST_INDEX, span_join(@2, @end)), $index)); }
 | expression OR expression             { $$ = ast_chain(p->ast, @$, $1, AST_OR, $3); }
 | expression AND expression            { $$ = ast_chain(p->ast, @$, $1, AST_AND, $3); }
 | expression EQUAL expression          { $$ = ast_chain(p->ast, @$, $1, AST_EQUAL, $3); }
@@ -262,34 +284,6 @@ expression:
 | NOT expression                       { $$ = ast_prefix(p->ast, @$, AST_NOT, $2); }
 | expression QUESTION expression[yes] COLON expression[no]
     { $$ = ast_holding(ast_node(p->ast, AST_CONDITIONAL, @$), ast_append(ast_pair($1, $yes), $no)); }
-;
-
-primary:
-  NUMBER       { $$ = parser_number(p, AST_NUMBER, @$, $1); }
-| DEGREES      { $$ = parser_number(p, AST_ANGLE, @$, $1); }
-| RADIANS      { $$ = parser_number(p, AST_ANGLE, @$, $1); $$->unit = AST_RADIANS; }
-| STRING       { $$ = ast_text(p->ast, AST_STRING, @$, $1); }
-| COLOUR       { $$ = parser_colour(p, @$, $1); }
-| TRUE         { $$ = ast_node(p->ast, AST_BOOL, @$); $$->boolean = true; }
-| FALSE        { $$ = ast_node(p->ast, AST_BOOL, @$); }
-| NAME         { $$ = ast_named(p->ast, AST_NAME, @$, $1, @1); }
-| NAME LPAREN arguments RPAREN
-    { $$ = ast_holding(ast_named(p->ast, AST_CALL, @$, $NAME, @NAME), $arguments); }
-| LPAREN value RPAREN                 { $$ = ast_with(ast_node(p->ast, AST_PARENTHESES, @$), $2); }
-| LPAREN components[list] COMMA expression[last] RPAREN
-    { $$ = ast_holding(ast_node(p->ast, AST_VECTOR, @$), ast_append($list, $last)); }
-| LBRACKET values RBRACKET            { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
-| LBRACKET values COMMA RBRACKET      { $$ = ast_holding(ast_node(p->ast, AST_LIST, @$), $values); }
-| LBRACKET RBRACKET                   { $$ = ast_node(p->ast, AST_LIST, @$); }
-| LBRACKET value FOR NAME IN expression RBRACKET
-    { $$ = ast_holding(ast_named(p->ast, AST_COMPREHENSION, @$, $NAME, @NAME),
-                       ast_pair($value, $expression)); }
-| primary[base] DOT NAME
-    { $$ = ast_select(p->ast, @$, $base,
-                      ast_named(p->ast, AST_MEMBER, span_join(@2, @NAME), $NAME, @NAME)); }
-| primary[base] LBRACKET expression RBRACKET[end]
-    { $$ = ast_select(p->ast, @$, $base,
-                      ast_with(ast_node(p->ast, AST_INDEX, span_join(@2, @end)), $expression)); }
 ;
 
 components:

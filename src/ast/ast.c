@@ -24,11 +24,9 @@ void ast_free(struct ast *a)
 
 struct ast_node *ast_node(struct ast *a, enum ast_kind kind, struct span span)
 {
-    struct ast_node *n = arena_zalloc(&a->arena, 1, sizeof *n);
+    struct ast_node *n = arena_alloc(&a->arena, sizeof *n);
     a->nodes++;
-    n->kind = (uint8_t)kind;
-    n->span = n->name_span = span;
-    n->xml = a->xml;
+    *n = (struct ast_node){.kind = (uint8_t)kind, .span = span, .name_span = span, .xml = a->xml};
     return n;
 }
 

@@ -10,38 +10,66 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { BLOCK_BYTES = 64 * 1024, ALIGNMENT = _Alignof(max_align_t) };
+/* Blocks grow with the arena, from BLOCK_BYTES to BLOCK_MOST; those from BLOCK_LARGE on ask the
+ * system for large pages, which come sooner than as many small ones. */
+enum { BLOCK_BYTES = 64 << 10, BLOCK_LARGE = 4 << 20, BLOCK_MOST = 16 << 20, ALIGNMENT = 8 };
 
 struct arena_block {
     struct arena_block *next;
     char *end;
-    max_align_t data[];
+    uint64_t data[];
 };
 
-static void add_block(struct arena *a, size_t n)
+static void ask_large_pages(void *p, size_t n)
 {
-    size_t room = n > BLOCK_BYTES ? n : BLOCK_BYTES;
+#ifdef MADV_HUGEPAGE
+    enum { PAGE = 4096 };
+    char *first = (char *)(((uintptr_t)p + PAGE - 1) & ~(uintptr_t)(PAGE - 1));
+    madvise(first, n - (size_t)(first - (char *)p), MADV_HUGEPAGE); /* no is an answer, too */
+#else
+    (void)p, (void)n;
+#endif
+}
+
+static size_t clamp(size_t n, size_t least, size_t most)
+{
+    return n < least ? least : n > most ? most : n;
+}
+
+static struct arena_block *new_block(const struct arena *a, size_t n)
+{
+    size_t room = clamp(a->bytes / 4, BLOCK_BYTES, BLOCK_MOST);
+    room = n > room ? n : room;
     if (room > SIZE_MAX - sizeof(struct arena_block))
         mem_exhausted(SIZE_MAX);
     struct arena_block *b = mem_alloc(1, sizeof *b + room);
+    b->end = (char *)b->data + room;
+    if (room >= BLOCK_LARGE)
+        ask_large_pages(b, room);
+    return b;
+}
+
+static void add_block(struct arena *a, size_t n)
+{
+    struct arena_block *b = a->spare;
+    if (b && (size_t)(b->end - (char *)b->data) >= n)
+        a->spare = NULL;
+    else
+        b = new_block(a, n);
     b->next = a->blocks;
     a->blocks = b;
     a->at = (char *)b->data;
-    a->end = b->end = a->at + room;
+    a->end = b->end;
 }
 
-void *arena_alloc(struct arena *a, size_t n)
+void *arena_alloc_block(struct arena *a, size_t n)
 {
     if (n > PTRDIFF_MAX)
         mem_exhausted(n);
-    n = (n + !n + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    if (n > (size_t)(a->end - a->at))
-        add_block(a, n);
-    void *p = a->at;
-    a->at += n;
-    a->bytes += n;
-    return p;
+    add_block(a, n + ALIGNMENT);
+    return arena_alloc(a, n);
 }
 
 void *arena_zalloc(struct arena *a, size_t n, size_t size)
@@ -85,7 +113,8 @@ void arena_release(struct arena *a, struct arena_mark m)
 {
     while (a->blocks != m.block) {
         struct arena_block *next = a->blocks->next;
-        free(a->blocks);
+        free(a->spare);
+        a->spare = a->blocks;
         a->blocks = next;
     }
     a->at = m.at;
@@ -95,10 +124,7 @@ void arena_release(struct arena *a, struct arena_mark m)
 
 void arena_free(struct arena *a)
 {
-    while (a->blocks) {
-        struct arena_block *next = a->blocks->next;
-        free(a->blocks);
-        a->blocks = next;
-    }
+    arena_release(a, (struct arena_mark){0});
+    free(a->spare);
     *a = (struct arena){0};
 }

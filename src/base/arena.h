@@ -9,12 +9,26 @@ struct arena_block;
 /* Zero-initialise; free with arena_free. */
 struct arena {
     struct arena_block *blocks; /* newest first */
+    struct arena_block *spare;  /* the last one released, or NULL */
     char *at, *end;             /* the free rest of the newest block */
     size_t bytes;               /* handed out and not released */
 };
 
-/* n bytes aligned for any type, not zeroed; never NULL (see mem.h). */
-void *arena_alloc(struct arena *a, size_t n);
+/* What arena_alloc does when the newest block is full. */
+void *arena_alloc_block(struct arena *a, size_t n);
+
+/* n bytes aligned for pointers and numbers up to 64 bits, not zeroed; never NULL (see mem.h). */
+static inline void *arena_alloc(struct arena *a, size_t n)
+{
+    enum { ALIGNMENT = 8 };
+    size_t rounded = (n + !n + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    if (rounded < n || rounded > (size_t)(a->end - a->at))
+        return arena_alloc_block(a, n);
+    void *p = a->at;
+    a->at += rounded;
+    a->bytes += rounded;
+    return p;
+}
 
 /* A zeroed array of n objects of `size` bytes; the product is checked. */
 void *arena_zalloc(struct arena *a, size_t n, size_t size);

@@ -4,6 +4,7 @@
 
 #include "base/map.h"
 #include "eval/eval.h"
+#include "schema/index.h"
 
 /* ---- values: before it is known what they are for ---- */
 
@@ -104,6 +105,8 @@ struct eval {
     bool *define_used; /* one for each of options->defines */
     struct desc *out;
     struct diag *diag;
+
+    struct schema_index index[2]; /* names of properties: native, XML */
 
     struct arena *scratch; /* values and names; what a statement takes is given back at its end */
     struct scope builtins, *scope;

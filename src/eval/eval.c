@@ -119,6 +119,8 @@ bool eval_scene(const struct ast *ast, const struct eval_options *options, struc
     struct eval e = {.options = options, .out = out, .diag = diag};
     size_t errors = diag->errors;
     e.last_place = &e.first_place;
+    for (int xml = 0; xml < 2; xml++)
+        schema_index_build(&e.index[xml], xml);
     e.define_used = mem_zalloc(options->define_count, sizeof *e.define_used);
     modules_begin(&e, ast->source->name);
     if (ast->xml)

@@ -49,7 +49,7 @@ struct desc_prop *object_prop(struct eval *e, struct arena *a, struct desc_objec
 enum schema_prop_id object_find_prop(struct eval *e, const struct desc_object *o, struct str name,
                                      struct span name_span, unsigned *leaf)
 {
-    enum schema_prop_id id = schema_find_prop(o->kind, name, o->xml, leaf);
+    enum schema_prop_id id = schema_index_find(&e->index[o->xml], o->kind, name, leaf);
     if (id == SCHEMA_PROPS) {
         report_unknown_property(e, o, name, name_span);
     } else if (!(schema_props[id].models >> o->model & 1) && !e->model_unknown) {

@@ -45,10 +45,10 @@ static bool encoding_of(struct str name, enum encoding *encoding)
     static const struct {
         const char *name;
         enum encoding encoding;
-    } known[] = {{"UTF-8", ENCODING_UTF8},         {"UTF8", ENCODING_UTF8},
-                 {"ISO-8859-1", ENCODING_LATIN1},  {"ISO8859-1", ENCODING_LATIN1},
-                 {"ISO_8859-1", ENCODING_LATIN1},  {"Latin-1", ENCODING_LATIN1},
-                 {"Latin1", ENCODING_LATIN1},      {"US-ASCII", ENCODING_ASCII},
+    } known[] = {{"UTF-8", ENCODING_UTF8},        {"UTF8", ENCODING_UTF8},
+                 {"ISO-8859-1", ENCODING_LATIN1}, {"ISO8859-1", ENCODING_LATIN1},
+                 {"ISO_8859-1", ENCODING_LATIN1}, {"Latin-1", ENCODING_LATIN1},
+                 {"Latin1", ENCODING_LATIN1},     {"US-ASCII", ENCODING_ASCII},
                  {"ASCII", ENCODING_ASCII}};
     *encoding = ENCODING_UTF8;
     if (!name.n)
@@ -78,8 +78,7 @@ static void latin1_to_utf8(char **text, size_t *n)
 bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem)
 {
     if (starts_with(*text, *n, "\xFF\xFE", 2) || starts_with(*text, *n, "\xFE\xFF", 2))
-        return problem_at(problem, DIAG_ENCODING, 0,
-                          "UTF-16 is not read; save the scene as UTF-8");
+        return problem_at(problem, DIAG_ENCODING, 0, "UTF-16 is not read; save the scene as UTF-8");
     if (starts_with(*text, *n, "\xEF\xBB\xBF", 3))
         memmove(*text, *text + 3, *n -= 3);
     const char *nul = *n ? memchr(*text, 0, *n) : NULL;

@@ -34,7 +34,7 @@ struct parser {
     struct span now;        /* the one under way */
     uint32_t comment_begin; /* of the comment, string or section being scanned */
 
-    struct ast_list version; /* native: `wrt 1` */
+    struct ast_list version;             /* native: `wrt 1` */
     struct span brackets[NESTING_LIMIT]; /* native: the open ones */
     unsigned depth;                      /* native: how many */
 
@@ -42,13 +42,19 @@ struct parser {
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
     bool tag_end_due;              /* XML: a `>` to feign */
+    bool behind_tag;               /* XML: no text came since the last tag */
     bool feigned;                  /* XML: the token stands for one whose absence was reported */
 };
 
 /* ---- tokens.c: for both scanners ---- */
 
 /* The span of the token that takes the next `length` bytes, and advances over it. */
-struct span parser_token(struct parser *p, size_t length);
+static inline struct span parser_token(struct parser *p, size_t length)
+{
+    struct span span = {p->at, p->at + (uint32_t)length};
+    p->at = span.end;
+    return span;
+}
 /* Gives back the last n bytes. */
 void parser_untake(struct parser *p, size_t n);
 void parser_trivia(struct parser *p, enum trivia_kind kind, struct span span);
@@ -66,8 +72,7 @@ void parser_unnest(struct parser *p);
 /* ---- build.c: grammar actions longer than a constructor ---- */
 
 void parser_missing_version(struct parser *p);
-void parser_version(struct parser *p, struct span span, struct span number_span,
-                    struct str number);
+void parser_version(struct parser *p, struct span span, struct span number_span, struct str number);
 struct ast_node *parser_number(struct parser *p, enum ast_kind kind, struct span span,
                                struct str spelling);
 struct ast_node *parser_colour(struct parser *p, struct span span, struct str digits);

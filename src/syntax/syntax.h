@@ -15,8 +15,8 @@ struct encoding_problem {
 };
 bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem);
 
-/* The file's text, decoded, as a source; NULL after reporting.  A file that cannot be read is a `code`
- * at `span`. */
+/* The file's text, decoded, as a source; NULL after reporting.  A file that cannot be read is a
+ * `code` at `span`. */
 const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
                                  struct span span, struct diag *diag);
 
@@ -29,7 +29,6 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
 
 /* Parses the value of a `-D`: out->statements is one expression, or a string node with the whole
  * text when it is no expression. */
-void syntax_parse_value(const struct srcmap *sources, const struct source *source,
-                        struct ast *out);
+void syntax_parse_value(const struct srcmap *sources, const struct source *source, struct ast *out);
 
 #endif

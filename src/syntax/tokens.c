@@ -5,13 +5,6 @@
 
 #include "grammar/scene.tab.h"
 
-struct span parser_token(struct parser *p, size_t length)
-{
-    struct span span = {p->at, p->at + (uint32_t)length};
-    p->at = span.end;
-    return span;
-}
-
 void parser_untake(struct parser *p, size_t n)
 {
     p->at -= (uint32_t)n;
@@ -64,9 +57,10 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
         return TOKEN_XML_CLOSE;
     p->feigned = false;
     int token;
-    do /* blanks around the root element mean nothing */
+    do /* blanks around the root element mean nothing, nor do those right behind a tag */
         token = xml_scan(value, span, p->scanner);
-    while (token == TOKEN_XML_TEXT && !p->open.n && !str_trim(value->text).n);
+    while (token == TOKEN_XML_TEXT && (!p->open.n || p->behind_tag) && !str_trim(value->text).n);
+    p->behind_tag = token != TOKEN_XML_TEXT;
     p->feigned |= p->tag_end_due;
     if (token == TOKEN_XML_TEXT && !p->open.n)
         *span = span_of_trimmed(*span, value->text);

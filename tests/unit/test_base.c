@@ -358,7 +358,7 @@ START_TEST(arena_allocations)
         size_t n = sizes[i % COUNT(sizes)];
         made[i] = arena_zalloc(&a, n, 1);
         ck_assert_ptr_nonnull(made[i]);
-        ck_assert_uint_eq((uintptr_t)made[i] % _Alignof(max_align_t), 0);
+        ck_assert_uint_eq((uintptr_t)made[i] % _Alignof(uint64_t), 0);
         for (size_t j = 0; j < n; j += 97)
             ck_assert_int_eq(made[i][j], 0);
         memset(made[i], i, n);
@@ -367,6 +367,13 @@ START_TEST(arena_allocations)
         for (size_t j = 0; j < sizes[i % COUNT(sizes)]; j += 97)
             ck_assert_int_eq((unsigned char)made[i][j], (unsigned char)i);
     ck_assert_str_eq(arena_copy(&a, "abcdef", 3), "abc");
+    struct arena_mark m = arena_mark(&a);
+    char *first = arena_alloc(&a, 100);
+    for (size_t n = 1; n < 40 << 20; n *= 3) /* through blocks of every size */
+        memset(arena_alloc(&a, n), 1, n);
+    arena_release(&a, m);
+    ck_assert_ptr_eq(arena_alloc(&a, 100), first);
+    ck_assert_uint_eq(a.bytes, m.bytes + 104);
     ck_assert_str_eq(arena_printf(&a, "%d-%s", 7, "x"), "7-x");
     arena_free(&a);
     arena_free(&a);
