@@ -1,5 +1,5 @@
 #!/bin/sh
-# The property tables of wrt.5 are those that the schema makes.
+# The property tables of wrt.5 are those that the schema makes, and its examples are scenes.
 #
 #   manual.sh [--update]
 set -u
@@ -26,3 +26,27 @@ elif ! diff -u $manual "$work/wanted"; then
     echo "manual: $manual is older than the schema: run 'make update-docs'"
     exit 1
 fi
+
+# Its examples are scenes without a finding: `.\" EXAMPLE` stands before each, with `whole` when the
+# example has all that a scene needs.
+awk -v folder="$work" '
+    /^\.\\" EXAMPLE/ { number++; whole = /whole/; next }
+    /^\.Bd -literal/ && number > done {
+        file = folder "/example" number ".wrt"; inside = 1
+        if (!whole)
+            printf "wrt 1\nmodel modern\ncamera { eye: (0, 1, -4)  look_at: 0  fov: 54  resolution: (8, 8) }\n" >file
+        next
+    }
+    /^\.Ed/ { if (inside) { close(file); done = number }; inside = 0 }
+    inside { print >file }
+' $manual
+examples=0 status=0
+for example in "$work"/example*.wrt; do
+    examples=$((examples + 1))
+    found=$("${WRT:-build/wrt}" check -v "$example" 2>&1) && [ -z "$found" ] && continue
+    printf 'manual: an example is wrong\n%s\n' "$found"
+    status=1
+done
+[ $examples -ge 5 ] || { echo "manual: only $examples examples found"; status=1; }
+echo "$examples examples"
+exit $status
