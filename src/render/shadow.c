@@ -100,8 +100,26 @@ static bool lets_light(const struct tracer *t, const struct target_list *list)
     return false;
 }
 
-/* A ray is blocked when its nearest hit is not emissive; where nothing is emissive, when it hits
- * anything. */
+/* Modern: whether anything but emissive surfaces is in the ray's way, of which `hit` is the first.
+ * What is emissive is passed by a ray that starts on it; enough such stretches for any scene end a
+ * walk that rounding errors keep on the spot. */
+static bool is_blocked(const struct tracer *t, struct ray ray, struct hit hit)
+{
+    enum { STRETCHES = 1000 };
+    for (int i = 0; i < STRETCHES && hit.prim != PRIM_NONE; i++) {
+        if (!is_emissive(t, hit.prim))
+            return true;
+        ray.origin = vec3_mad(ray.origin, hit.t, ray.direction);
+        ray.t_max -= hit.t;
+        ray.from = hit.prim;
+        ray.spawned = true;
+        accel_closest(&t->accel, &ray, &hit);
+    }
+    return false;
+}
+
+/* A ray is blocked when its nearest hit is not emissive, in modern also when something behind it is
+ * not; where nothing is emissive, when it hits anything. */
 void find_blocked(struct worker *w, const struct target_list *list, bool *blocked)
 {
     const struct tracer *t = w->tracer;
@@ -113,8 +131,11 @@ void find_blocked(struct worker *w, const struct target_list *list, bool *blocke
         return;
     }
     bundle_closest(&t->accel, t->bundles, rays, list, &hits);
-    for (uint32_t i = 0; i < rays->n; i++)
+    for (uint32_t i = 0; i < rays->n; i++) {
         blocked[i] = hits.prim[i] != PRIM_NONE && !is_emissive(t, (uint32_t)hits.prim[i]);
+        if (t->modern && hits.prim[i] != PRIM_NONE && !blocked[i])
+            blocked[i] = is_blocked(t, ray_get(rays, i), hit_get(&hits, i));
+    }
 }
 
 /* What a ball of directions, seen from a point, is to a ball in the scene. */

@@ -76,6 +76,10 @@ static const struct {
          WHITE) "light sun { direction: (0, -1, 1) intensity: 1 }"
                 "sphere { center: (0, 2, -2) radius: 0.5 material: emissive { diffuse: 1 } }",
      0.70710678118654752, 1e-7},
+    {PIXEL WALL(WHITE) "light sun { direction: (0, -1, 1) intensity: 1 }"
+                       "sphere { center: (0, 2, -2) radius: 0.5 material: emissive { diffuse: 1 } }"
+                       "sphere { center: (0, 4, -4) radius: 0.5 material: " WHITE "}",
+     0, 0},
     {PIXEL WALL(WHITE) "light point { position: (0, 1, -1) intensity: 2 }"
                        "sphere { center: (0, 2, -2) radius: 0.5 material: " WHITE "}",
      0.70710678118654752, 1e-7},
