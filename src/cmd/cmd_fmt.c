@@ -17,12 +17,17 @@ static void write_text(struct frontend *f, const char *path, struct str text)
                     reason);
 }
 
+static void print_text(struct str text)
+{
+    if (text.n)
+        fwrite(text.at, 1, text.n, stdout);
+}
+
 static void print_difference(const struct source *before, struct str after)
 {
     struct buffer difference = {0};
     linediff(before->name, (struct str){before->text, before->n}, before->name, after, &difference);
-    if (difference.n > 0)
-        fwrite(difference.at, 1, difference.n, stdout);
+    print_text((struct str){difference.at, difference.n});
     buffer_free(&difference);
 }
 
@@ -38,7 +43,7 @@ static int deliver(struct frontend *f, const char *path, struct str text, const 
     if (o->in_place && changed)
         write_text(f, path, text);
     else if (!o->in_place && !o->check && !o->difference)
-        fwrite(text.at, 1, text.n, stdout);
+        print_text(text);
     return o->check && changed ? DIAG_EXIT_INPUT : DIAG_EXIT_OK;
 }
 

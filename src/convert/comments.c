@@ -229,10 +229,10 @@ static void put_marked(struct str content, const char *open, const char *close, 
 static void put_native(struct str content, enum comment_place place, unsigned column,
                        struct buffer *out)
 {
-    bool line = place != COMMENT_INSIDE && !spans_lines(content);
-    if (place == COMMENT_OWN_LINE)
+    bool line = (place == COMMENT_OWN_LINE || place == COMMENT_BEHIND) && !spans_lines(content);
+    if (place == COMMENT_OWN_LINE || (place == COMMENT_INSIDE && spans_lines(content)))
         begin_line(out, false);
-    if (place == COMMENT_BEHIND)
+    if (place == COMMENT_BEHIND || place == COMMENT_BEHIND_MORE)
         buffer_puts(out, " ");
     if (line) {
         buffer_printf(out, content.n ? "// %.*s" : "//", (int)content.n, content.at);
@@ -242,7 +242,7 @@ static void put_native(struct str content, enum comment_place place, unsigned co
         put_marked((struct str){apart.at, apart.n}, "/*", "*/", column, out);
         buffer_free(&apart);
     }
-    buffer_puts(out, place == COMMENT_INSIDE ? " " : "\n");
+    buffer_puts(out, place == COMMENT_INSIDE ? " " : place == COMMENT_BEHIND_MORE ? "" : "\n");
 }
 
 void comment_to_native(const struct ast *ast, const struct trivia *c, enum comment_place place,
@@ -291,7 +291,8 @@ void comment_to_xml(const struct ast *ast, const struct trivia *c, enum comment_
     if (place == COMMENT_BEHIND)
         buffer_puts(out, " ");
     put_marked((struct str){text.at, text.n}, "<!--", "-->", gap_column(ast, c->span.begin), out);
-    buffer_puts(out, place == COMMENT_INSIDE ? "" : "\n");
+    if (place == COMMENT_OWN_LINE)
+        buffer_puts(out, "\n");
     buffer_free(&own);
     buffer_free(&text);
 }

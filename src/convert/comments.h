@@ -15,8 +15,9 @@
 
 enum comment_place {
     COMMENT_OWN_LINE,
-    COMMENT_BEHIND, /* what it belongs to, at the end of its line */
-    COMMENT_INSIDE, /* a line */
+    COMMENT_BEHIND,      /* what it belongs to, at the end of its line */
+    COMMENT_BEHIND_MORE, /* likewise, and others follow on the line */
+    COMMENT_INSIDE,      /* a line */
 };
 
 /* Writes an XML comment as a native one. */

@@ -42,6 +42,7 @@ struct writer {
     struct arena arena;
     struct names names;
     struct str *textures; /* their names, by index */
+    bool *texture_notes;  /* which have an id that their name does not tell of */
     size_t texture_count;
     struct map shared; /* id to struct shared */
 };
@@ -80,7 +81,7 @@ static void collect(const struct writer *w, const struct ast_node *element, stru
             continue;
         struct member *last = out->v.n ? &out->v.at[out->v.n - 1] : NULL;
         struct member next = {.node = c};
-        while (gap_next(&g, &u)) {
+        while (g.at < element->span.end && gap_next(&g, &u)) { /* `<lights/>` has no inside */
             bool behind = last && u.ends_line && u.newlines == 0 && next.leads == 0;
             size_t *first = behind ? &last->behind : &next.lead;
             size_t *n = behind ? &last->behinds : &next.leads;
@@ -135,7 +136,8 @@ static void put_lead(struct writer *w, const struct member *m, bool blanks)
 
 static void put_behind(struct writer *w, const struct member *m)
 {
-    put_comments(w, m->behind, m->behinds, COMMENT_BEHIND);
+    for (size_t i = 0; i < m->behinds; i++)
+        put_comment(w, m->behind + i, i + 1 < m->behinds ? COMMENT_BEHIND_MORE : COMMENT_BEHIND);
 }
 
 /* All comments inside a leaf, as they come. */
@@ -448,15 +450,16 @@ static void put_surface(struct writer *w, const struct ast_node *n)
 
 static void put_texture_statement(struct writer *w, const struct ast_node *n)
 {
-    struct str id = attribute(n, "id"), name = w->textures[w->texture_count++];
+    size_t i = w->texture_count++;
     put(w, "texture ");
-    buffer_str(w->out, name);
-    if (id.at && !str_equal(id, name))
-        put_note(w, "id", id);
+    buffer_str(w->out, w->textures[i]);
+    if (w->texture_notes[i])
+        put_note(w, "id", attribute(n, "id"));
     put(w, " = image");
     put_block(w, n, KIND_IMAGE);
 }
 
+/* The sections that are arrays. */
 static const struct section {
     const char *name;
     void (*put)(struct writer *w, const struct ast_node *n);
@@ -521,16 +524,38 @@ static void put_section(struct writer *w, const struct section *s, const struct 
     if (away || !holds_items(m->node))
         note_write("section", str_of(s->name), COMMENT_OWN_LINE, w->out);
     begin_line(w->out, true);
-    put_comments(w, m->behind, m->behinds, COMMENT_OWN_LINE);
+}
+
+static const struct section *section_named(struct str name)
+{
+    for (int i = 0; i < SECTIONS; i++)
+        if (str_is(name, sections[i].name))
+            return &sections[i];
+    return NULL;
+}
+
+/* A section has no last line for comments to stand behind: they go before what follows. */
+static void hand_on_comments(struct members *children)
+{
+    for (size_t i = 0; i < children->v.n; i++) {
+        struct member *m = &children->v.at[i];
+        bool last = i + 1 == children->v.n;
+        size_t *first = last ? &children->tail : &children->v.at[i + 1].lead;
+        size_t *n = last ? &children->tails : &children->v.at[i + 1].leads;
+        if (!section_named(m->node->name) || m->behinds == 0)
+            continue;
+        *first = m->behind;
+        *n += m->behinds;
+    }
 }
 
 static void put_child(struct writer *w, const struct member *m)
 {
-    for (int i = 0; i < SECTIONS; i++)
-        if (str_is(m->node->name, sections[i].name)) {
-            put_section(w, &sections[i], m);
-            return;
-        }
+    const struct section *s = section_named(m->node->name);
+    if (s) {
+        put_section(w, s, m);
+        return;
+    }
     bool camera = str_is(m->node->name, "camera");
     put_comments(w, m->lead, m->leads, COMMENT_OWN_LINE);
     put(w, camera ? "camera" : "settings");
@@ -565,6 +590,7 @@ static void put_scene(struct writer *w)
         put_note(w, "model", model);
     begin_line(w->out, true);
     collect(w, root, &children);
+    hand_on_comments(&children);
     for (size_t i = 0; i < children.v.n; i++)
         put_child(w, &children.v.at[i]);
     put_comments(w, children.tail, children.tails, COMMENT_OWN_LINE);
@@ -581,17 +607,20 @@ static struct str leaf_text(const struct ast_node *n, const char *name)
     return (struct str){0};
 }
 
+/* A texture without an id is called after its file; one whose id is that very name needs a note. */
 static void name_textures(struct writer *w)
 {
     const struct ast_node *section = section_of(w, "textures");
     size_t i = 0;
     w->textures = arena_zalloc(&w->arena, w->t->desc->textures.n, sizeof *w->textures);
+    w->texture_notes = arena_zalloc(&w->arena, w->t->desc->textures.n, sizeof *w->texture_notes);
     for (const struct ast_node *c = section ? section->children : NULL; c; c = c->next) {
         if (!is_element(c))
             continue;
-        struct str id = attribute(c, "id");
-        struct str wanted = id.at ? id : names_of_file(&w->names, leaf_text(c, "file"));
-        w->textures[i++] = names_take(&w->names, wanted);
+        struct str id = attribute(c, "id"), made = names_of_file(&w->names, leaf_text(c, "file"));
+        struct str name = names_take(&w->names, id.at ? id : made);
+        w->texture_notes[i] = id.at && (!str_equal(id, name) || str_equal(made, name));
+        w->textures[i++] = name;
     }
 }
 

@@ -169,6 +169,11 @@ static void write_text(struct layout *l, struct str text, unsigned width)
     l->begun = true;
     buffer_str(l->out, text);
     l->column += width;
+    size_t last = text.n; /* where the last line of a text of several begins */
+    while (last > 0 && text.at[last - 1] != '\n')
+        last--;
+    if (last > 0)
+        l->column = columns_of((struct str){text.at + last, text.n - last});
 }
 
 static void end_line(struct layout *l, bool blank, unsigned extra)

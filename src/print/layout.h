@@ -25,7 +25,7 @@ struct layout {
     bool begun; /* the current line has text on it */
 };
 
-/* Text without a newline; it must live until layout_flush. */
+/* Text, of one line where it stands in a group; it must live until layout_flush. */
 void layout_text(struct layout *l, struct str text);
 /* Text that may have several lines and stood at `column` before: its further lines are moved as far
  * as its first.  Blanks at the ends of lines are left out. */

@@ -5,39 +5,52 @@
  * A text that breaks a property is printed, with its seed. */
 #include "config.h"
 
+#include "events.h"
 #include "random.h"
 
-#include "base/vec.h"
+#include "../unit/load.h"
+#include "base/file.h"
+#include "convert/bake.h"
+#include "convert/compare.h"
+#include "convert/translate.h"
 #include "print/printer.h"
 #include "syntax/syntax.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
-/* A text and its tree. */
-struct parsed {
-    struct srcmap sources;
-    struct diag diag;
-    struct ast ast;
-    struct str text;
+/* A text, NUL-terminated, and what it means. */
+struct text {
+    struct buffer bytes;
+    struct load load;
 };
 
-static bool parse(struct parsed *p, struct str text)
+static struct str text_of(const struct text *t)
 {
-    *p = (struct parsed){0};
-    char *copy = mem_alloc(text.n + 2, 1);
-    memcpy(copy, text.at, text.n);
-    const struct source *s = srcmap_add(&p->sources, "scene", copy, text.n);
-    diag_init(&p->diag, &p->sources);
-    p->text = (struct str){s->text, s->n};
-    return syntax_parse(s, &p->ast, &p->diag);
+    return (struct str){t->bytes.at, t->bytes.n - 1};
 }
 
-static void parsed_free(struct parsed *p)
+static void text_end(struct text *t)
 {
-    ast_free(&p->ast);
-    diag_free(&p->diag);
-    srcmap_free(&p->sources);
+    buffer_add(&t->bytes, "", 1);
+}
+
+static bool parse(struct text *t)
+{
+    load_text(&t->load, "scene", t->bytes.at);
+    return syntax_parse(t->load.source, &t->load.ast, &t->load.diag);
+}
+
+static bool lower(struct text *t)
+{
+    return load_lower(&t->load, "scene", t->bytes.at);
+}
+
+static void text_free(struct text *t)
+{
+    buffer_free(&t->bytes);
+    load_free(&t->load);
 }
 
 /* ---- what must be the same ---- */
@@ -49,57 +62,88 @@ static bool is_token(const struct ast_node *n)
            n->kind == AST_TEXT;
 }
 
-static struct str spelling(const struct parsed *p, struct span span)
+static bool same_spelling(const struct load *a, struct span x, const struct load *b, struct span y)
 {
-    return srcmap_text(&p->sources, span);
+    return str_equal(srcmap_text(&a->sources, x), srcmap_text(&b->sources, y));
 }
 
-static bool same_trees(const struct parsed *pa, const struct ast_node *a, const struct parsed *pb,
+static bool same_trees(const struct load *la, const struct ast_node *a, const struct load *lb,
                        const struct ast_node *b)
 {
     for (; a && b; a = a->next, b = b->next) {
-        bool same = a->kind == b->kind && a->unit == b->unit && a->operator == b->operator &&
-                    str_equal(a->name, b->name);
+        bool same = a->kind == b->kind && a->unit == b->unit &&
+                    a->operator== b->operator&& str_equal(a->name, b->name);
         if (a->kind == AST_BLOCK || a->kind == AST_DEFAULT)
             same = same && str_equal(a->label, b->label);
         if (is_token(a))
-            same = same && str_equal(spelling(pa, a->span), spelling(pb, b->span));
-        if (!same || !same_trees(pa, a->children, pb, b->children))
+            same = same && same_spelling(la, a->span, lb, b->span);
+        if (!same || !same_trees(la, a->children, lb, b->children))
             return false;
     }
     return !a && !b;
 }
 
 /* A text's bytes without white space and the separators that the layout may leave out; a comment
- * keeps its bytes, but for blanks at the ends of its lines and before them. */
-static void squeeze(const struct parsed *p, struct buffer *out)
+ * keeps those. */
+static void squeeze(const struct text *t, struct buffer *out)
 {
+    const struct ast *ast = &t->load.ast;
     size_t comment = 0;
-    for (uint32_t i = 0; i < p->text.n; i++) {
-        const struct trivia *c = comment < p->ast.trivia.n ? &p->ast.trivia.at[comment] : NULL;
-        uint32_t at = p->ast.source->base + i;
+    for (uint32_t i = 0; i + 1 < t->bytes.n; i++) {
+        const struct trivia *c = comment < ast->trivia.n ? &ast->trivia.at[comment] : NULL;
+        uint32_t at = ast->source->base + i;
         bool inside = c && at >= c->span.begin;
-        if (strchr(" \t\r\n,;", p->text.at[i]) == NULL || (inside && strchr(",;", p->text.at[i])))
-            buffer_add(out, p->text.at + i, 1);
+        if (!strchr(inside ? " \t\r\n" : " \t\r\n,;", t->bytes.at[i]))
+            buffer_add(out, t->bytes.at + i, 1);
         comment += inside && at + 1 == c->span.end;
     }
 }
 
-static bool same_squeezed(const struct parsed *a, const struct parsed *b)
+static bool same_bytes(struct buffer *a, struct buffer *b)
+{
+    bool same = str_equal((struct str){a->at, a->n}, (struct str){b->at, b->n});
+    buffer_free(a);
+    buffer_free(b);
+    return same;
+}
+
+static bool same_squeezed(const struct text *a, const struct text *b)
 {
     struct buffer x = {0}, y = {0};
     squeeze(a, &x);
     squeeze(b, &y);
-    bool same = str_equal((struct str){x.at, x.n}, (struct str){y.at, y.n}) &&
-                a->ast.trivia.n == b->ast.trivia.n;
-    buffer_free(&x);
-    buffer_free(&y);
+    return same_bytes(&x, &y) && a->load.ast.trivia.n == b->load.ast.trivia.n;
+}
+
+static bool same_events(const struct text *a, const struct text *b)
+{
+    struct buffer x = {0}, y = {0};
+    xml_events(&a->load.ast, &x);
+    xml_events(&b->load.ast, &y);
+    return same_bytes(&x, &y);
+}
+
+static bool same_comments(const struct text *a, const struct text *b)
+{
+    struct buffer x = {0}, y = {0};
+    comment_events(&a->load.ast, &x);
+    comment_events(&b->load.ast, &y);
+    return same_bytes(&x, &y);
+}
+
+static bool same_scene(const struct scene *a, const struct scene *b)
+{
+    struct comparison c = {0};
+    bool same = compare_scenes(a, b, 3, &c);
+    for (size_t i = 0; i < c.found.n; i++)
+        printf("%s: %s, but %s\n", c.found.at[i].what, c.found.at[i].a, c.found.at[i].b);
+    comparison_free(&c);
     return same;
 }
 
 /* ---- the layout ---- */
 
-/* No blanks at the ends of lines, no two blank lines, one newline at the end. */
+/* No blanks at the ends of lines, one newline at the end. */
 static bool is_tidy(struct str text)
 {
     if (!text.n || text.at[text.n - 1] != '\n' || text.at[0] == '\n')
@@ -110,55 +154,192 @@ static bool is_tidy(struct str text)
     return true;
 }
 
-static const char *broken_layout(const struct parsed *first)
+static bool is_laid_out(const struct text *t)
 {
-    struct buffer once = {0}, twice = {0};
-    struct parsed second = {0};
-    print_scene(&first->ast, &once);
-    struct str text = {once.at, once.n};
-    const char *broken = NULL;
-    if (!parse(&second, text))
-        broken = "fmt(x) parses";
-    else if (!same_trees(first, first->ast.statements, &second, second.ast.statements))
-        broken = "parse(fmt(x)) = parse(x)";
-    else if (!same_squeezed(first, &second))
-        broken = "tokens and comments keep their order";
-    else if (!is_tidy(text))
-        broken = "fmt(x) is tidy";
-    if (!broken) {
-        print_scene(&second.ast, &twice);
-        if (!str_equal(text, (struct str){twice.at, twice.n}))
-            broken = "fmt(fmt(x)) = fmt(x)";
-    }
+    struct buffer again = {0}, now = {0};
+    print_scene(&t->load.ast, &again);
+    buffer_str(&now, text_of(t));
+    return same_bytes(&again, &now);
+}
+
+/* A text that was parsed; the result is the property that it breaks, or NULL. */
+static const char *broken_layout(const struct text *first)
+{
+    bool xml = first->load.ast.xml;
+    struct text second = {0};
+    print_scene(&first->load.ast, &second.bytes);
+    text_end(&second);
+    const char *broken =
+        !parse(&second)                       ? "fmt(x) parses"
+        : xml && !same_events(first, &second) ? "elements and comments keep their order"
+        : !xml && !same_trees(&first->load, first->load.ast.statements, &second.load,
+                              second.load.ast.statements)
+            ? "parse(fmt(x)) = parse(x)"
+        : !xml && !same_squeezed(first, &second) ? "tokens and comments keep their order"
+        : !xml && !is_tidy(text_of(&second))     ? "fmt(x) is tidy"
+        : !is_laid_out(&second)                  ? "fmt(fmt(x)) = fmt(x)"
+                                                 : NULL;
     if (broken)
-        printf("---- once:\n%.*s---- twice:\n%.*s", STR_ARG(once), STR_ARG(twice));
-    parsed_free(&second);
-    buffer_free(&once);
-    buffer_free(&twice);
+        printf("---- laid out:\n%s", second.bytes.at);
+    text_free(&second);
     return broken;
 }
 
-static bool holds(uint64_t seed)
+static const char *check_native(uint64_t seed, struct text *t)
 {
-    struct buffer text = {0};
-    struct parsed p;
-    random_native(seed, &text);
-    const char *broken = parse(&p, (struct str){text.at, text.n}) ? broken_layout(&p) : "x parses";
+    random_native(seed, &t->bytes);
+    text_end(t);
+    return parse(t) ? broken_layout(t) : "x parses";
+}
+
+/* ---- conversions ---- */
+
+static struct translation translation_of(struct text *t, const struct desc *desc)
+{
+    return (struct translation){.ast = &t->load.ast,
+                                .desc = desc,
+                                .sources = &t->load.sources,
+                                .diag = &t->load.diag,
+                                .beside = "scene"};
+}
+
+/* The scene in the other format, and what that means. */
+static bool convert(struct text *from, const struct desc *desc, struct text *to)
+{
+    struct translation t = translation_of(from, desc);
+    bool right =
+        from->load.ast.xml ? translate_to_native(&t, &to->bytes) : translate_to_xml(&t, &to->bytes);
+    text_end(to);
+    return right && lower(to);
+}
+
+/* The scene goes to `there`, that to `back`, and that to `again`. */
+static const char *broken_round_trip(struct text *t, const struct desc *desc,
+                                     const struct scene *scene, struct text *there,
+                                     struct text *back, struct text *again)
+{
+    bool xml = t->load.ast.xml;
+    if (!convert(t, desc, there))
+        return "x is converted";
+    if (!same_scene(scene, &there->load.lowered.scene))
+        return "convert(x) is the same scene";
+    if (!is_laid_out(there))
+        return "convert(x) is laid out";
+    if (!xml && !same_comments(t, there))
+        return "convert(x) has the same comments";
+    if (!convert(there, &there->load.desc, back))
+        return "convert(x) is converted back";
+    if (xml && !same_events(t, back))
+        return "what comes back has the same elements, spellings and comments";
+    if (!convert(back, &back->load.desc, again))
+        return "what comes back is converted again";
+    return same_squeezed(there, again) ? NULL : "what comes back is converted alike";
+}
+
+static const char *check_round_trip(struct text *t, const struct desc *desc,
+                                    const struct scene *scene)
+{
+    struct text there = {0}, back = {0}, again = {0};
+    const char *broken = broken_round_trip(t, desc, scene, &there, &back, &again);
     if (broken)
-        printf("---- seed %llu, broken: %s\n%.*s\n", (unsigned long long)seed, broken,
-               STR_ARG(text));
-    parsed_free(&p);
-    buffer_free(&text);
+        printf("---- there:\n%s\n---- back:\n%s\n---- again:\n%s\n",
+               there.bytes.n ? there.bytes.at : "", back.bytes.n ? back.bytes.at : "",
+               again.bytes.n ? again.bytes.at : "");
+    for (size_t i = 0; broken && i < there.load.diag.entries.n; i++)
+        printf("there: %s\n", there.load.diag.entries.at[i]->message);
+    for (size_t i = 0; broken && i < back.load.diag.entries.n; i++)
+        printf("back: %s\n", back.load.diag.entries.at[i]->message);
+    text_free(&there);
+    text_free(&back);
+    text_free(&again);
+    return broken;
+}
+
+static const char *check_xml(uint64_t seed, struct text *t)
+{
+    random_xml(seed, &t->bytes);
+    text_end(t);
+    if (!lower(t))
+        return "x is a scene";
+    const char *broken = broken_layout(t);
+    return broken ? broken : check_round_trip(t, &t->load.desc, &t->load.lowered.scene);
+}
+
+static const char *check_scene(uint64_t seed, struct text *t)
+{
+    random_scene(seed, &t->bytes);
+    text_end(t);
+    if (!lower(t))
+        return "x is a scene";
+    struct arena arena = {0};
+    struct desc desc;
+    struct lowered lowered = {0};
+    const char *broken = broken_layout(t);
+    if (!broken && (!bake_places(&t->load.desc, &arena, &t->load.diag, &desc) ||
+                    !lower_scene(&desc, &t->load.sources, &lowered, &t->load.diag)))
+        broken = "places are made part of x";
+    if (!broken)
+        broken = check_round_trip(t, &desc, &lowered.scene);
+    lower_free(&lowered);
+    arena_free(&arena);
+    return broken;
+}
+
+/* ---- the program ---- */
+
+static bool holds(const char *(*check)(uint64_t seed, struct text *t), uint64_t seed)
+{
+    struct text t = {0};
+    const char *broken = check(seed, &t);
+    if (broken) {
+        printf("---- seed %llu, broken: %s\n%s\n", (unsigned long long)seed, broken, t.bytes.at);
+        diag_print(&t.load.diag, &(struct diag_print_options){.least = DIAG_ERROR}, stdout);
+    }
+    text_free(&t);
     return !broken;
+}
+
+/* The files that random scenes name. */
+static bool write_files(void)
+{
+    static const char mesh[] = "OFF\n4 2 0\n0 0 0\n1.1 0 0\n0 1.7 0\n1 1 0.3\n3 0 1 2\n3 1 3 2\n";
+    static const char uvs[] = "0 0\n1 0\n0 1\n1 0\n1 1\n0 1\n";
+    char why[IMAGE_REASON_BYTES];
+    size_t n;
+    struct picture *p = picture_new(2, 2, false);
+    picture_set(p, 1, 1, vec3(1, 0.5, 0));
+    void *png = picture_encode(p, PICTURE_PNG, &n, why);
+    bool written = png && !file_write("t.png", png, n) &&
+                   !file_write("m.off", mesh, sizeof mesh - 1) &&
+                   !file_write("m.txt", uvs, sizeof uvs - 1);
+    free(png);
+    picture_free(p);
+    return written;
+}
+
+static bool try_all(uint64_t first, unsigned long count)
+{
+    for (uint64_t seed = first; seed < first + count; seed++)
+        if (!holds(check_native, seed) || !holds(check_xml, seed) || !holds(check_scene, seed))
+            return false;
+    return true;
 }
 
 int main(int argc, char **argv)
 {
     unsigned long count = argc > 1 ? strtoul(argv[1], NULL, 10) : 300;
     uint64_t first = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
-    for (uint64_t seed = first; seed < first + count; seed++)
-        if (!holds(seed))
-            return EXIT_FAILURE;
-    printf("%lu random texts\n", count);
-    return EXIT_SUCCESS;
+    char folder[] = "/tmp/wrt-property.XXXXXX";
+    if (!mkdtemp(folder) || chdir(folder) != 0 || !write_files()) {
+        puts("no folder for the files of the scenes");
+        return EXIT_FAILURE;
+    }
+    bool right = try_all(first, count);
+    static const char *const files[] = {"t.png", "m.off", "m.txt"};
+    for (int i = 0; i < COUNT(files); i++)
+        unlink(files[i]);
+    rmdir(folder);
+    if (right)
+        printf("%lu random native texts, XML scenes and native scenes each\n", count);
+    return right ? EXIT_SUCCESS : EXIT_FAILURE;
 }

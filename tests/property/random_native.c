@@ -3,98 +3,6 @@
 
 #include "random.h"
 
-struct writer {
-    struct random random;
-    struct buffer *out;
-    unsigned comments;     /* so far; each has its number in it */
-    unsigned comment_rate; /* a comment once in so many gaps */
-};
-
-static unsigned below(struct writer *w, unsigned n)
-{
-    return random_below(&w->random, n);
-}
-
-static bool once_in(struct writer *w, unsigned n)
-{
-    return random_once_in(&w->random, n);
-}
-
-/* ---- gaps ---- */
-
-static void put_blanks(struct writer *w)
-{
-    static const char *const blanks[] = {" ",         "  ", "\n",   "\n\n",
-                                         " \n\n\n\t", "\t", "\r\n", "\n   "};
-    buffer_puts(w->out, blanks[below(w, sizeof blanks / sizeof *blanks)]);
-}
-
-static void put_comment(struct writer *w)
-{
-    static const char *const contents[] = {"",
-                                           " plain",
-                                           " two -- dashes --- ",
-                                           "xml: x=\"y\"",
-                                           "\\xml: a",
-                                           " caf\xC3\xA9 \\ ",
-                                           " { a: ",
-                                           " \" ",
-                                           " // /* ",
-                                           "-",
-                                           " trailing   "};
-    const char *content = contents[below(w, sizeof contents / sizeof *contents)];
-    unsigned n = w->comments++;
-    switch (below(w, 3)) {
-    case 0:
-        buffer_printf(w->out, "//%s %u */\n", content, n);
-        break;
-    case 1:
-        buffer_printf(w->out, "/*%s %u */", content, n);
-        break;
-    default:
-        buffer_printf(w->out, "/*%s %u\n    more \n\n  * and more*/", content, n);
-        break;
-    }
-}
-
-static void put_gap(struct writer *w, bool needed)
-{
-    bool any = false;
-    if (w->out->n && w->out->at[w->out->n - 1] == '/') /* would begin a comment with what follows */
-        buffer_puts(w->out, " ");
-    while (once_in(w, w->comment_rate)) {
-        if (once_in(w, 2))
-            put_blanks(w);
-        put_comment(w);
-        any = true;
-    }
-    if ((needed && !any) || once_in(w, 2))
-        put_blanks(w);
-}
-
-static bool is_bracket(char c)
-{
-    return strchr("(){}[],;:", c) != NULL;
-}
-
-static void put_str(struct writer *w, struct str token)
-{
-    const struct buffer *b = w->out;
-    bool loose = b->n && !is_bracket(b->at[b->n - 1]) && !is_bracket(token.at[0]);
-    put_gap(w, loose);
-    buffer_str(w->out, token);
-}
-
-static void put(struct writer *w, const char *token)
-{
-    put_str(w, str_of(token));
-}
-
-static void put_one_of(struct writer *w, const char *words)
-{
-    put_str(w, random_word(&w->random, words));
-}
-
 static void put_name(struct writer *w)
 {
     put_one_of(w, "a b gold a_rather_long_name_for_a_thing x1 _ sphere pi center wood0 deg");
@@ -323,7 +231,7 @@ static void put_plain_statement(struct writer *w, unsigned depth)
         put_value(w, depth);
         break;
     default:
-        put_definition(w, random_once_in(&w->random, 2) ? "let" : "param", depth);
+        put_definition(w, once_in(w, 2) ? "let" : "param", depth);
         break;
     }
 }
@@ -338,9 +246,17 @@ static void put_object(struct writer *w, unsigned depth)
     put_block(w, depth);
 }
 
+/* `light point lamp { ... }` */
+static void put_labelled(struct writer *w, unsigned depth)
+{
+    for (int i = 0; i < 3; i++)
+        put_name(w);
+    put_block(w, depth);
+}
+
 static void put_statement(struct writer *w, unsigned depth)
 {
-    switch (depth == 0 ? 0 : below(w, 8)) {
+    switch (depth == 0 ? 0 : below(w, 9)) {
     case 0:
         put_plain_statement(w, depth);
         break;
@@ -372,6 +288,9 @@ static void put_statement(struct writer *w, unsigned depth)
         if (once_in(w, 2))
             put_block(w, depth - 1);
         break;
+    case 7:
+        put_labelled(w, depth - 1);
+        break;
     default:
         put_object(w, depth - 1);
         break;
@@ -395,9 +314,7 @@ static void put_members(struct writer *w, unsigned depth)
 
 void random_native(uint64_t seed, struct buffer *out)
 {
-    static const unsigned rates[] = {2, 5, 20, 1000};
-    struct writer w = {.random = {seed}, .out = out};
-    w.comment_rate = rates[below(&w, 4)];
+    struct writer w = writer_begin(seed, false, out);
     put(&w, "wrt");
     put(&w, "1");
     for (unsigned n = below(&w, 8); n > 0; n--) {
