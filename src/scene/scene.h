@@ -165,7 +165,7 @@ struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
 /* The triangle's number within its surface, to which normals and texture coordinates belong. */
 size_t surface_face(const struct surface *surface, const struct spot *spot);
 
-/* The normal of corner i of a smooth mesh's triangle, in its shape's space. */
+/* The normal of corner i of a smooth mesh's triangle, of length 1 or 0. */
 struct vec3 surface_corner_normal(const struct surface *surface, const struct spot *spot, int i);
 
 /* Where shadow rays from the point p of a smooth mesh start: raised, on the side that `outwards`

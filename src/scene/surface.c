@@ -60,13 +60,21 @@ struct vec2 surface_uv(const struct scene *s, const struct surface *surface, con
                          b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y};
 }
 
+/* A direction's, which may be no direction at all. */
+static struct vec3 placed_normal(const struct instance *i, struct vec3 n)
+{
+    n = affine_normal(&i->to_shape, n);
+    return vec3_largest(n) > 0 ? vec3_normalize(n) : n;
+}
+
 struct vec3 surface_corner_normal(const struct surface *surface, const struct spot *spot, int i)
 {
     const struct geometry *g = spot->geometry;
     const struct triangle *t = &g->triangles.at[g->prims.at[spot->prim].index];
     const struct triangle_corners *own = surface->normal_corners;
     uint32_t at = own ? own[surface_face(surface, spot)].at[i] : t->vertex[i];
-    return surface->normals[own || spot->instance ? at : at - surface->first_vertex];
+    struct vec3 n = surface->normals[own || spot->instance ? at : at - surface->first_vertex];
+    return spot->instance ? placed_normal(spot->instance, n) : n;
 }
 
 /* Where the vertex normals cancel out, the face's own is taken. */
@@ -77,12 +85,10 @@ static struct vec3 smooth_normal(const struct surface *surface, const struct spo
     struct vec3 n = vec3_scale(surface_corner_normal(surface, spot, 0), 1 - hit->b1 - hit->b2);
     n = vec3_mad(n, hit->b1, surface_corner_normal(surface, spot, 1));
     n = vec3_mad(n, hit->b2, surface_corner_normal(surface, spot, 2));
-    bool cancelled = !(vec3_largest(n) > 0);
-    if (cancelled)
-        n = g->triangles.at[g->prims.at[spot->prim].index].normal;
-    if (spot->instance)
-        n = affine_normal(&spot->instance->to_shape, n);
-    return cancelled && !spot->instance ? n : vec3_normalize(n);
+    if (vec3_largest(n) > 0)
+        return vec3_normalize(n);
+    n = g->triangles.at[g->prims.at[spot->prim].index].normal;
+    return spot->instance ? placed_normal(spot->instance, n) : n;
 }
 
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,

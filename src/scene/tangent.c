@@ -89,10 +89,8 @@ struct vec3 surface_lift(const struct scene *s, const struct surface *surface,
     corners_of(spot.geometry, t, corner);
     for (int i = 0; i < 3; i++) {
         struct vec3 n = surface_corner_normal(surface, &spot, i);
-        if (spot.instance) {
+        if (spot.instance)
             corner[i] = affine_point(&spot.instance->to_world, corner[i]);
-            n = vec3_normalize(affine_normal(&spot.instance->to_shape, n));
-        }
         if (vec3_dot(n, outwards) < 0)
             n = vec3_neg(n);
         double above = vec3_dot(vec3_sub(p, corner[i]), n);

@@ -515,6 +515,35 @@ START_TEST(many_uses_share_one_mesh)
 }
 END_TEST
 
+/* A use more or less must not change how a mesh looks. */
+START_TEST(copies_look_like_instances)
+{
+    struct load one, many;
+    const char *each = "mesh{file:\"m.off\" position:1 scale:(1,-2,3) material:m}\n"
+                       "mesh{file:\"m.off\" position:2 scale:(1,-2,3) material:m}\n";
+    static const struct affine skewed = {{{-1, 0.5, 0, 1}, {0, 2, 0, 2}, {0.2, 0, 3, 3}}};
+    char *text = many_meshes(each);
+    const struct scene *copy = lower_at(
+        &one, &skewed, "mesh { file: \"m.off\"  position: 1  scale: (1, -2, 3)  " WHITE " }");
+    ck_assert(load_lower_placed(&many, scene_name, text, &skewed));
+    const struct scene *shared = &many.lowered.scene;
+    ck_assert(shared->geometry.instances.n == MANY && copy->geometry.instances.n == 0);
+    for (uint32_t face = 0; face < 4; face++) {
+        for (int k = 0; k < 36; k++) {
+            struct hit a = {.prim = face, .b1 = k % 6 / 10.0, .b2 = k / 6 / 10.0}, b = a;
+            b.prim = 0;
+            b.part = face;
+            struct vec3 n = surface_normal(copy, &copy->surfaces.at[0], &a, vec3_all(0));
+            struct vec3 m = surface_normal(shared, &shared->surfaces.at[0], &b, vec3_all(0));
+            check_near(n, m.x, m.y, m.z);
+        }
+    }
+    load_free(&one);
+    load_free(&many);
+    free(text);
+}
+END_TEST
+
 static const struct {
     const char *body;
     const struct affine *place;
@@ -574,6 +603,7 @@ Suite *lower_suite(void)
     tcase_add_test(t, mirrors_keep_sides);
     tcase_add_loop_test(t, mesh_normals_turn_like_planes, 0, MESH_TESTS);
     tcase_add_loop_test(t, many_uses_share_one_mesh, 0, MESH_TESTS);
+    tcase_add_loop_test(t, copies_look_like_instances, 0, MESH_TESTS);
     tcase_add_loop_test(t, places_that_fail, 0, COUNT(displaced));
     suite_add_tcase(s, t);
     return s;
