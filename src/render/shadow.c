@@ -147,7 +147,7 @@ struct aim {
     double distance; /* to the lamp's center */
     double tangent;  /* length of a tangent to the lamp's ball */
     double radius;   /* of the lamp's ball */
-    double reach;    /* to the light's position: how far a shadow ray goes */
+    double least_reach, reach; /* how far shadow rays go, the shortest and the longest */
 };
 
 /* Rounding errors of the tests below are far smaller than this, relative to the distances. */
@@ -181,7 +181,7 @@ static enum cover sphere_cover(const struct aim *aim, const struct sphere *s)
     /* The first hit from outside is no farther than the tangent; from the sphere, than through it.
      */
     double farthest = power == 0 ? 2 * s->radius : sqrt(power);
-    if (cover == COVER_ALL && !(farthest < aim->reach * (1 - COVER_MARGIN)))
+    if (cover == COVER_ALL && !(farthest < aim->least_reach * (1 - COVER_MARGIN)))
         return COVER_SOME;
     return cover;
 }
@@ -197,16 +197,20 @@ static enum cover cylinder_cover(const struct aim *aim, const struct cylinder *c
     return ball_cover(aim, middle, sqrt(r2), power) == COVER_NONE ? COVER_NONE : COVER_SOME;
 }
 
+/* Classic's rays go as far as the light's position is, modern's to the samples themselves. */
 static struct aim aim_at(const struct lamp *lamp, struct vec3 p)
 {
     struct vec3 to_center = vec3_sub(lamp->center, p);
-    double square = vec3_dot(to_center, to_center);
+    double square = vec3_dot(to_center, to_center), distance = sqrt(square);
+    double reach = vec3_length(vec3_sub(lamp->light->position, p));
+    bool modern = lamp->light->samples.n > 0;
     return (struct aim){.p = p,
                         .to_center = to_center,
-                        .distance = sqrt(square),
+                        .distance = distance,
                         .tangent = sqrt(fmax(square - lamp->radius * lamp->radius, 0)),
                         .radius = lamp->radius,
-                        .reach = vec3_length(vec3_sub(lamp->light->position, p))};
+                        .least_reach = modern ? distance - lamp->radius : reach,
+                        .reach = modern ? distance + lamp->radius : reach};
 }
 
 /* Leaves in the list what can stand between this one point and the lamp; false when one of its

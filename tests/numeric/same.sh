@@ -65,8 +65,8 @@ for scene in "${scenes[@]}"; do
     compare whole other -t 7
     compare whole other --accel none
     compare whole other --no-skip
-    for isa in $others; do
-        compare whole other --isa "$isa"
+    for isa in $others; do # of the examples, the slowest scenes, only in the long run
+        [ -z "$full" ] && [ -z "${scene##*/examples/*}" ] || compare whole other --isa "$isa"
     done
     render whole -t 1 -s 2 --jitter
     compare whole other -t 3 -s 2 --jitter --no-skip
