@@ -127,10 +127,28 @@ static void add_camera(struct json *j, const struct camera *c)
     add_vector(j, "eye", c->origin);
     add_vector(j, "back", c->back);
     add_vector(j, "up", c->up);
-    add_field(j, "yfov", c->yfov);
+    if (!c->modern)
+        add_field(j, "yfov", c->yfov);
+    else if (c->yfov > 0)
+        add_field(j, "fov", c->yfov);
+    else
+        add_field(j, "height", c->view_height);
     add_key(j, "resolution");
     add_vec2(j, (struct vec2){c->width, c->height});
-    add_field(j, "compat", c->compatible);
+    if (!c->modern)
+        add_field(j, "compat", c->compatible);
+    close_with(j, "}");
+}
+
+static void add_settings(struct json *j, const struct scene *s)
+{
+    add_key(j, "settings");
+    open_with(j, "{");
+    add_vector(j, "background", s->background);
+    add_vector(j, "ambient", s->ambient);
+    add_field(j, "depth", s->depth);
+    add_field(j, "samples", s->grid);
+    add_word(j, "encoding", s->linear ? "linear" : "srgb");
     close_with(j, "}");
 }
 
@@ -182,24 +200,55 @@ static void add_material(struct json *j, const struct material *m)
     close_with(j, "}");
 }
 
-static void add_light(struct json *j, const struct light *l, const struct srcmap *sources)
+/* Classic: where the points of the grid are, and how many there. */
+static void add_points_of_light(struct json *j, const struct light *l)
 {
-    open_item(j);
-    add_word(j, "kind", l->kind == LIGHT_AREA ? "area" : "point");
-    add_vector(j, "position", l->position);
-    add_vector(j, "intensity", l->intensity);
-    add_word(j, "falloff", l->inverse_square ? "inverse_square" : "none");
-    if (l->kind == LIGHT_AREA) {
-        add_key(j, "points");
+    add_key(j, "points");
+    open_with(j, "[");
+    for (size_t i = 0; i < l->points.n; i++) {
         open_with(j, "[");
-        for (size_t i = 0; i < l->points.n; i++) {
-            open_with(j, "[");
-            export_vec3(j->out, l->points.at[i].position, ",");
-            buffer_printf(j->out, ",%u", l->points.at[i].count);
-            close_with(j, "]");
-        }
+        export_vec3(j->out, l->points.at[i].position, ",");
+        buffer_printf(j->out, ",%u", l->points.at[i].count);
         close_with(j, "]");
     }
+    close_with(j, "]");
+}
+
+/* Modern: place, normal and share. */
+static void add_samples_of_light(struct json *j, const struct light *l)
+{
+    add_field(j, "both_sides", l->both_sides);
+    add_key(j, "samples");
+    open_with(j, "[");
+    for (size_t i = 0; i < l->samples.n; i++) {
+        open_with(j, "[");
+        export_vec3(j->out, l->samples.at[i].position, ",");
+        buffer_puts(j->out, ",");
+        export_vec3(j->out, l->samples.at[i].normal, ",");
+        buffer_puts(j->out, ",");
+        buffer_number(j->out, l->samples.at[i].share);
+        close_with(j, "]");
+    }
+    close_with(j, "]");
+}
+
+static void add_light(struct json *j, const struct light *l, enum scene_model model,
+                      const struct srcmap *sources)
+{
+    static const char *const kinds[] = {
+        [LIGHT_POINT] = "point", [LIGHT_AREA] = "area", [LIGHT_SUN] = "sun"};
+    bool sun = l->kind == LIGHT_SUN, sampled = l->kind == LIGHT_AREA && model == SCENE_MODERN;
+    open_item(j);
+    add_word(j, "kind", kinds[l->kind]);
+    if (!sampled)
+        add_vector(j, sun ? "direction" : "position", sun ? vec3_neg(l->position) : l->position);
+    add_vector(j, "intensity", l->intensity);
+    if (!sun)
+        add_word(j, "falloff", l->inverse_square ? "inverse_square" : "none");
+    if (sampled)
+        add_samples_of_light(j, l);
+    else if (l->kind == LIGHT_AREA)
+        add_points_of_light(j, l);
     add_place(j, sources, l->span);
     close_with(j, "}");
 }
@@ -316,9 +365,11 @@ void export_json(const struct scene *scene, const char *path, struct buffer *out
     open_with(&j, "{");
     add_word(&j, "format", "wrt scene");
     add_field(&j, "version", LAYOUT_VERSION);
-    add_word(&j, "model", "classic");
+    add_word(&j, "model", scene->model == SCENE_MODERN ? "modern" : "classic");
     add_key(&j, "camera");
     add_camera(&j, &scene->camera);
+    if (scene->model == SCENE_MODERN)
+        add_settings(&j, scene);
     open_list(&j, "textures");
     for (size_t i = 0; i < scene->textures.n; i++)
         add_texture(&j, &scene->textures.at[i], path);
@@ -329,7 +380,7 @@ void export_json(const struct scene *scene, const char *path, struct buffer *out
     close_with(&j, "]");
     open_list(&j, "lights");
     for (size_t i = 0; i < scene->lights.n; i++)
-        add_light(&j, &scene->lights.at[i], diag->sources);
+        add_light(&j, &scene->lights.at[i], scene->model, diag->sources);
     close_with(&j, "]");
     open_list(&j, "surfaces");
     for (size_t i = 0; i < scene->surfaces.n; i++)

@@ -2,36 +2,20 @@
  *
  * Classic's arithmetic is that of the picture's bytes, hence assumed_gamma srgb: POV-Ray then works
  * on encoded values, too, and writes them as they are.  Reflection and refraction are scaled by the
- * sum of the lights, as classic does; glass is made twice, once to be seen and once, unseen, for
- * its full shadow. */
+ * sum of the lights, as classic does.  Modern's arithmetic is POV-Ray's own.  Glass is made twice,
+ * once to be seen and once, unseen, for its full shadow. */
 #include "config.h"
 
-#include "base/file.h"
-#include "convert/exporting.h"
-#include "scene/camera.h"
+#include "convert/pov.h"
 
-#include <stdlib.h>
-
-/* POV-Ray weakens what is diffuse by the share that shines through; a share of 1 would leave
- * nothing to make up for that with. */
-#define TRANSMIT_MOST 0.999
-
-enum { TRACE_LEVEL = 5 }; /* classic's 3 reflections, with room */
-
-struct pov {
-    struct exporting e;
-    struct export_names materials;
-    uint32_t *name_of; /* of each of the scene's materials */
-};
-
-static void add_vector(struct buffer *out, struct vec3 v)
+void pov_add_vector(struct buffer *out, struct vec3 v)
 {
     buffer_puts(out, "<");
     export_vec3(out, v, ",");
     buffer_puts(out, ">");
 }
 
-static void add_field(struct buffer *out, const char *name, double x)
+void pov_add_field(struct buffer *out, const char *name, double x)
 {
     buffer_printf(out, " %s ", name);
     buffer_number(out, x);
@@ -41,37 +25,29 @@ static void add_field(struct buffer *out, const char *name, double x)
 
 static void add_camera(struct exporting *e)
 {
-    const struct camera *c = &e->scene->camera;
-    struct lens lens = lens_of(c, c->width, c->height);
-    struct vec3 flip = vec3(1, 1, lens.mirrored ? -1 : 1);
-    buffer_puts(e->out, "camera {\n  perspective\n  location ");
-    add_vector(e->out, lens.origin);
+    struct export_view view = export_view(e->scene);
+    buffer_printf(e->out, "camera {\n  %s\n  location ",
+                  view.parallel ? "orthographic" : "perspective");
+    pov_add_vector(e->out, view.eye);
     buffer_puts(e->out, "\n  direction ");
-    add_vector(e->out, vec3_mul(lens.ahead, flip));
+    pov_add_vector(e->out, view.ahead);
     buffer_puts(e->out, "\n  right ");
-    add_vector(e->out, vec3_scale(vec3_mul(lens.across, flip), 2));
+    pov_add_vector(e->out, vec3_scale(view.across, 2));
     buffer_puts(e->out, "\n  up ");
-    add_vector(e->out, vec3_scale(vec3_mul(lens.upwards, flip), 2));
+    pov_add_vector(e->out, vec3_scale(view.upwards, 2));
     buffer_puts(e->out, "\n}\n");
 }
 
-/* The two longest sides of the object's box; as many points along each as classic takes. */
-static void add_area(struct exporting *e, const struct light *l)
+static void add_area(struct exporting *e, const struct light *l, const struct export_area *area)
 {
-    struct box box = geometry_bounds(&l->object);
-    struct vec3 side = vec3_sub(box.hi, box.lo);
-    double least = fmin(side.x, fmin(side.y, side.z));
-    bool flat_z = side.z == least, flat_y = !flat_z && side.y == least;
-    struct vec3 a = flat_z || flat_y ? vec3(side.x, 0, 0) : vec3(0, side.y, 0);
-    struct vec3 b = flat_z ? vec3(0, side.y, 0) : vec3(0, 0, side.z);
     size_t points = 0;
     for (size_t i = 0; i < l->points.n; i++)
         points += l->points.at[i].count;
-    int along = (int)lround(cbrt((double)points));
+    int along = e->scene->model == SCENE_CLASSIC ? (int)lround(cbrt((double)points)) : (int)l->grid;
     buffer_puts(e->out, " area_light ");
-    add_vector(e->out, a);
+    pov_add_vector(e->out, area->sides[0]);
     buffer_puts(e->out, ", ");
-    add_vector(e->out, b);
+    pov_add_vector(e->out, area->sides[1]);
     buffer_printf(e->out, ", %d, %d%s", along, along,
                   l->object.spheres.n ? " circular orient" : "");
 }
@@ -79,229 +55,63 @@ static void add_area(struct exporting *e, const struct light *l)
 /* The brightness of a light that falls off is 2 / (1 + (d / distance)^2) times its colour. */
 #define FADE_DISTANCE 1e-3
 
-static void add_light(struct exporting *e, const struct light *l)
+static void open_light(struct exporting *e, const struct light *l, struct vec3 position)
 {
     struct vec3 colour = l->intensity;
     if (l->inverse_square)
         colour = vec3_scale(colour, 0.5 / (FADE_DISTANCE * FADE_DISTANCE));
     buffer_puts(e->out, "light_source { ");
-    add_vector(e->out, l->position);
+    pov_add_vector(e->out, position);
     buffer_puts(e->out, ", rgb ");
-    add_vector(e->out, colour);
+    pov_add_vector(e->out, colour);
     if (l->inverse_square) {
-        add_field(e->out, "fade_distance", FADE_DISTANCE);
-        add_field(e->out, "fade_power", 2);
+        pov_add_field(e->out, "fade_distance", FADE_DISTANCE);
+        pov_add_field(e->out, "fade_power", 2);
     }
-    if (l->kind == LIGHT_AREA) {
-        add_area(e, l);
-        export_lose(e, LOSS_AREA_GRID, l->span);
-    }
+}
+
+/* Outside of everything: POV-Ray's parallel light begins at its place. */
+static void add_sun(struct exporting *e, const struct light *l)
+{
+    double reach;
+    struct vec3 middle = export_middle(e->scene, &reach);
+    open_light(e, l, vec3_mad(middle, reach + 1, l->position));
+    buffer_puts(e->out, " parallel point_at ");
+    pov_add_vector(e->out, middle);
     buffer_puts(e->out, " }\n");
 }
 
-/* ---- materials ------------------------------------------------------------------------------- */
-
-/* How a picture comes to a surface: by its texture coordinates, which POV-Ray counts like classic
- * but on cylinders, where it has none. */
-struct mapping {
-    struct uv_map uv;
-    const struct cylinder *around; /* or NULL */
-};
-
-static void add_string(struct buffer *out, const char *text)
+/* A modern light with two sides: a spot of 90 degrees for each has the cosine. */
+static void add_two_sided(struct exporting *e, const struct light *l,
+                          const struct export_area *area)
 {
-    buffer_puts(out, "\"");
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            buffer_puts(out, "\\");
-        buffer_add(out, text, 1);
-    }
-    buffer_puts(out, "\"");
-}
-
-static double inverse_scale(double x)
-{
-    return x == 0 ? 1e9 : 1 / x; /* one texel for all */
-}
-
-/* From texture coordinates times scale plus offset to texture coordinates. */
-static void add_uv_transform(struct buffer *out, const struct uv_map *m)
-{
-    if (m->offset.x != 0 || m->offset.y != 0) {
-        buffer_puts(out, " translate ");
-        add_vector(out, vec3(-m->offset.x, -m->offset.y, 0));
-    }
-    if (m->scale.x != 1 || m->scale.y != 1) {
-        buffer_puts(out, " scale ");
-        add_vector(out, vec3(inverse_scale(m->scale.x), inverse_scale(m->scale.y), 1));
+    struct vec3 normal = vec3_normalize(vec3_cross(area->sides[0], area->sides[1]));
+    for (int side = -1; side <= 1; side += 2) {
+        open_light(e, l, area->middle);
+        buffer_puts(e->out, " spotlight radius 90 falloff 90 tightness 1 point_at ");
+        pov_add_vector(e->out, vec3_mad(area->middle, side, normal));
+        add_area(e, l, area);
+        buffer_puts(e->out, " }\n");
     }
 }
 
-/* Caps lie on the picture's last rows, which are also its first: this share of the height keeps
- * them apart. */
-#define CAP_MARGIN 1e-4
-
-/* From the unit cylinder that POV-Ray wraps pictures around to this one, with classic's angles
- * (cylinder_uv of scene/surface.c): where its x, y and z axes and its middle go. */
-static void add_cylinder_transform(struct buffer *out, const struct cylinder *c,
-                                   const struct uv_map *m)
+static void add_light(struct exporting *e, const struct light *l)
 {
-    struct vec3 e = c->axis, up = vec3(0, 1, 0);
-    bool upright = fabs(e.y) > 1 - 1e-6;
-    struct vec3 across = vec3_mad(up, -e.y, e); /* shorter than 1: classic stretches the angle */
-    struct vec3 x = upright ? vec3(0, 0, 1) : vec3_normalize(vec3_cross(up, e));
-    struct vec3 z = upright ? vec3(-1, 0, 0) : vec3_scale(across, -1 / vec3_dot(across, across));
-    struct vec3 y = vec3_scale(e, c->height / (1 - 2 * CAP_MARGIN) * inverse_scale(m->scale.y));
-    double turn = 2 * PI * m->offset.x, cosine = cos(turn), sine = sin(turn);
-    struct vec3 images[4] = {
-        vec3_mad(vec3_scale(x, cosine), -sine, z),
-        y,
-        vec3_mad(vec3_scale(z, cosine), sine, x),
-        vec3_mad(vec3_mad(c->base, -CAP_MARGIN * c->height, e), -m->offset.y, y),
-    };
-    buffer_puts(out, " matrix <");
-    for (int i = 0; i < 4; i++) {
-        buffer_puts(out, i ? "," : "");
-        export_vec3(out, images[i], ",");
-    }
-    buffer_puts(out, ">");
-}
-
-static void add_picture(struct exporting *e, const struct material *m,
-                        const struct mapping *mapping, double transmit)
-{
-    const struct texture *t = &e->scene->textures.at[m->texture];
-    buffer_puts(e->out, mapping->around ? "image_map { " : "uv_mapping image_map { ");
-    buffer_puts(e->out, t->image->jpeg ? "jpeg " : "png ");
-    char *file = file_relative(e->path, t->file);
-    add_string(e->out, file);
-    free(file);
-    buffer_puts(e->out, mapping->around ? " map_type 2" : "");
-    buffer_puts(e->out, t->linear ? " interpolate 2" : "");
-    if (transmit > 0)
-        add_field(e->out, "transmit all", transmit);
-    buffer_puts(e->out, " }");
-    if (mapping->around)
-        add_cylinder_transform(e->out, mapping->around, &mapping->uv);
-    else
-        add_uv_transform(e->out, &mapping->uv);
-}
-
-static void add_pigment(struct exporting *e, const struct material *m,
-                        const struct mapping *mapping, double transmit)
-{
-    buffer_puts(e->out, "pigment { ");
-    if (m->texture != TEXTURE_NONE) {
-        add_picture(e, m, mapping, transmit);
-    } else {
-        buffer_puts(e->out, "rgb ");
-        add_vector(e->out, m->diffuse);
-        if (transmit > 0)
-            add_field(e->out, "transmit", transmit);
-    }
-    buffer_puts(e->out, " }");
-}
-
-/* A highlight of the diffuse colour is POV-Ray's metallic one. */
-static void add_highlight(struct buffer *out, const struct material *m)
-{
-    struct vec3 s = m->specular;
-    bool metallic = !vec3_is_even(s) && export_is_tint(s, m->diffuse);
-    if (vec3_is_zero(s))
+    struct export_area area = export_area(l);
+    if (l->kind == LIGHT_SUN) {
+        add_sun(e, l);
         return;
-    add_field(out, "phong", vec3_mean(s) / (metallic ? vec3_mean(m->diffuse) : 1));
-    add_field(out, "phong_size", m->exponent);
-    buffer_puts(out, metallic ? " metallic" : "");
-}
-
-static void add_mirror(struct exporting *e, const struct material *m)
-{
-    struct vec3 mirror = vec3_mul(m->reflection, e->light);
-    if (vec3_is_zero(mirror))
+    }
+    if (l->kind == LIGHT_AREA)
+        export_lose(e, LOSS_AREA_GRID, l->span);
+    if (l->both_sides) {
+        add_two_sided(e, l, &area);
         return;
-    buffer_puts(e->out, " reflection { rgb ");
-    add_vector(e->out, mirror);
-    buffer_puts(e->out, " }");
-}
-
-static void add_finish(struct exporting *e, const struct material *m, double transmit)
-{
-    buffer_puts(e->out, " finish {");
-    if (m->kind == MATERIAL_EMISSIVE) {
-        buffer_puts(e->out, " diffuse 0 emission rgb ");
-        add_vector(e->out, e->light);
-    } else {
-        add_field(e->out, "diffuse", 1 / (1 - transmit));
-        add_highlight(e->out, m);
     }
-    add_mirror(e, m);
-    buffer_puts(e->out, " }");
-}
-
-/* A picture multiplied by the diffuse colour: seen through a layer of that colour, which also has
- * what the colour must not touch.  A metal's colour counts twice, once as its mean. */
-static void add_tinted(struct exporting *e, const struct material *m, const struct mapping *mapping,
-                       double transmit)
-{
-    double metal = m->kind == MATERIAL_METAL ? vec3_mean(m->diffuse) : 1;
-    buffer_puts(e->out, "texture { ");
-    add_pigment(e, m, mapping, transmit);
-    buffer_puts(e->out, " finish {");
-    if (m->kind == MATERIAL_EMISSIVE) {
-        buffer_puts(e->out, " diffuse 0 emission rgb ");
-        add_vector(e->out, e->light);
-    } else {
-        add_field(e->out, "diffuse", 1 / (1 - transmit));
-    }
-    buffer_puts(e->out, " } } texture { pigment { rgb ");
-    add_vector(e->out, vec3_scale(m->diffuse, metal));
-    buffer_puts(e->out, " filter 1 } finish { diffuse 0");
-    add_highlight(e->out, m);
-    add_mirror(e, m);
-    buffer_puts(e->out, " } }");
-}
-
-static void add_material(struct exporting *e, const struct material *m,
-                         const struct mapping *mapping)
-{
-    bool tinted = m->texture != TEXTURE_NONE && !(vec3_is_even(m->diffuse) && m->diffuse.x == 1);
-    double transmit = vec3_mean(vec3_mul(m->refraction, e->light));
-    transmit = fmax(fmin(transmit, TRANSMIT_MOST), 0);
-    buffer_puts(e->out, "material { ");
-    if (tinted) {
-        add_tinted(e, m, mapping, transmit);
-    } else {
-        buffer_puts(e->out, "texture { ");
-        add_pigment(e, m, mapping, transmit);
-        add_finish(e, m, transmit);
-        buffer_puts(e->out, " }");
-    }
-    if (m->kind == MATERIAL_GLASS) {
-        buffer_puts(e->out, " interior {");
-        add_field(e->out, "ior", m->ior);
-        buffer_puts(e->out, " }");
-    }
-    buffer_puts(e->out, " }");
-}
-
-/* Equal materials, of which XML makes many, are declared once. */
-static void declare_materials(struct pov *p)
-{
-    struct exporting *e = &p->e;
-    struct buffer text = {0}, *out = e->out;
-    p->name_of = mem_zalloc(e->scene->materials.n, sizeof *p->name_of);
-    for (size_t i = 0; i < e->scene->materials.n; i++) {
-        const struct material *m = &e->scene->materials.at[i];
-        bool fresh;
-        text.n = 0;
-        e->out = &text;
-        add_material(e, m, &(struct mapping){.uv = m->uv});
-        e->out = out;
-        p->name_of[i] = export_name(&p->materials, (struct str){text.at, text.n}, &fresh);
-        if (fresh)
-            buffer_printf(out, "#declare M%u = %.*s\n", p->name_of[i], (int)text.n, text.at);
-    }
-    buffer_free(&text);
+    open_light(e, l, area.middle);
+    if (l->kind == LIGHT_AREA)
+        add_area(e, l, &area);
+    buffer_puts(e->out, " }\n");
 }
 
 static void note_losses(struct exporting *e, const struct surface *s, const struct material *m)
@@ -313,7 +123,7 @@ static void note_losses(struct exporting *e, const struct surface *s, const stru
         export_lose(e, LOSS_HIGHLIGHT, s->span);
     if (!vec3_is_even(m->refraction))
         export_lose(e, LOSS_REFRACTION, s->span);
-    if (bounces && e->falls_off)
+    if (bounces && e->falls_off && e->scene->model == SCENE_CLASSIC)
         export_lose(e, LOSS_FALLOFF, s->span);
 }
 
@@ -322,7 +132,7 @@ static void note_losses(struct exporting *e, const struct surface *s, const stru
 static void open_sphere(struct buffer *out, const struct sphere *s)
 {
     buffer_puts(out, "sphere { ");
-    add_vector(out, s->center);
+    pov_add_vector(out, s->center);
     buffer_puts(out, ", ");
     buffer_number(out, s->radius);
 }
@@ -330,9 +140,9 @@ static void open_sphere(struct buffer *out, const struct sphere *s)
 static void open_cylinder(struct buffer *out, const struct cylinder *c)
 {
     buffer_puts(out, "cylinder { ");
-    add_vector(out, c->base);
+    pov_add_vector(out, c->base);
     buffer_puts(out, ", ");
-    add_vector(out, vec3_mad(c->base, c->height, c->axis));
+    pov_add_vector(out, vec3_mad(c->base, c->height, c->axis));
     buffer_puts(out, ", ");
     buffer_number(out, c->radius);
 }
@@ -342,7 +152,7 @@ static void add_vertices(struct buffer *out, const struct vec3 *v, size_t n)
     buffer_printf(out, " vertex_vectors { %zu", n);
     for (size_t i = 0; i < n; i++) {
         buffer_puts(out, i % 4 ? "," : ",\n");
-        add_vector(out, v[i]);
+        pov_add_vector(out, v[i]);
     }
     buffer_puts(out, " }\n");
 }
@@ -353,7 +163,7 @@ static void add_normals(struct buffer *out, const struct vec3 *v, size_t n)
     buffer_printf(out, " normal_vectors { %zu", n);
     for (size_t i = 0; i < n; i++) {
         buffer_puts(out, i % 4 ? "," : ",\n");
-        add_vector(out, vec3_is_zero(v[i]) ? vec3(0, 1, 0) : v[i]);
+        pov_add_vector(out, vec3_is_zero(v[i]) ? vec3(0, 1, 0) : v[i]);
     }
     buffer_puts(out, " }\n");
 }
@@ -409,34 +219,6 @@ static void open_facets(struct exporting *e, const struct surface *s)
         add_faces(e->out, &f, s, FACE_UVS);
 }
 
-/* A normal map's coordinates, left out with it otherwise, are also those of the texture. */
-static struct uv_map picture_map(const struct surface *s, const struct material *m)
-{
-    struct uv_map uv = m->uv;
-    if (s->normal_map == TEXTURE_NONE)
-        return uv;
-    uv.offset.x += uv.scale.x * s->uv.offset.x;
-    uv.offset.y += uv.scale.y * s->uv.offset.y;
-    uv.scale.x *= s->uv.scale.x;
-    uv.scale.y *= s->uv.scale.y;
-    return uv;
-}
-
-static void add_material_use(struct pov *p, const struct surface *s, uint32_t prim)
-{
-    struct exporting *e = &p->e;
-    const struct material *m = &e->scene->materials.at[s->material];
-    bool round = s->kind == SURFACE_CYLINDER;
-    struct mapping mapping = {picture_map(s, m), round ? export_cylinder(e->scene, prim) : NULL};
-    if (m->texture != TEXTURE_NONE && (round || s->normal_map != TEXTURE_NONE)) {
-        add_material(e, m, &mapping);
-        if (round && mapping.uv.scale.x != 1)
-            export_lose(e, LOSS_CYLINDER_UV, s->span);
-    } else {
-        buffer_printf(e->out, "material { M%u }", p->name_of[s->material]);
-    }
-}
-
 static void open_shape(struct exporting *e, const struct surface *s, uint32_t prim)
 {
     if (s->kind == SURFACE_SPHERE)
@@ -460,16 +242,15 @@ static void add_place(struct buffer *out, const struct affine *place)
     buffer_puts(out, ">");
 }
 
-static void add_object(struct pov *p, const struct surface *s, uint32_t prim)
+static void add_object(struct exporting *e, const struct surface *s, uint32_t prim)
 {
-    struct exporting *e = &p->e;
     enum material_kind kind = e->scene->materials.at[s->material].kind;
     bool glass = kind == MATERIAL_GLASS;
     const struct affine *place = export_place(e->scene, prim);
     buffer_puts(e->out, glass ? "#declare Glass = " : "");
     open_shape(e, s, prim);
     buffer_puts(e->out, glass ? " }\nobject { Glass " : " ");
-    add_material_use(p, s, prim);
+    pov_add_material_use(e, s, prim);
     add_place(e->out, place);
     if (glass) {
         buffer_puts(e->out, " no_shadow }\nobject { Glass no_image no_reflection");
@@ -480,40 +261,44 @@ static void add_object(struct pov *p, const struct surface *s, uint32_t prim)
     buffer_puts(e->out, kind == MATERIAL_EMISSIVE ? " no_shadow }\n" : " }\n");
 }
 
-static void add_surface(struct pov *p, const struct surface *s)
+static void add_surface(struct exporting *e, const struct surface *s)
 {
     bool round = s->kind == SURFACE_SPHERE || s->kind == SURFACE_CYLINDER;
-    uint32_t objects = round ? s->prim_count : export_facets(p->e.scene, s).solid > 0;
-    note_losses(&p->e, s, &p->e.scene->materials.at[s->material]);
+    uint32_t objects = round ? s->prim_count : export_facets(e->scene, s).solid > 0;
+    note_losses(e, s, &e->scene->materials.at[s->material]);
     for (uint32_t i = 0; i < objects; i++)
-        add_object(p, s, s->first_prim + i);
+        add_object(e, s, s->first_prim + i);
 }
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
 static void add_head(struct exporting *e)
 {
-    const struct camera *c = &e->scene->camera;
+    const struct scene *s = e->scene;
     buffer_printf(e->out,
-                  "// made by wrt: povray +W%u +H%u FILE.pov\n"
+                  "// made by wrt: povray +W%u +H%u%s FILE.pov\n"
                   "#version 3.7;\n"
-                  "global_settings { assumed_gamma srgb max_trace_level %d }\n"
+                  "global_settings { assumed_gamma %s max_trace_level %d }\n"
                   "#default { finish { ambient 0 diffuse 1 } }\n",
-                  c->width, c->height, TRACE_LEVEL);
+                  s->camera.width, s->camera.height, s->linear ? " File_Gamma=1" : "",
+                  s->model == SCENE_CLASSIC ? "srgb" : "1", export_ray_depth(s));
+    if (vec3_is_zero(s->background))
+        return;
+    buffer_puts(e->out, "background { rgb ");
+    pov_add_vector(e->out, s->background);
+    buffer_puts(e->out, " }\n");
 }
 
 void export_pov(const struct scene *scene, const char *path, struct buffer *out, struct diag *diag)
 {
-    struct pov p = {0};
-    export_begin(&p.e, scene, path, out, diag);
-    add_head(&p.e);
-    add_camera(&p.e);
+    struct exporting e;
+    export_begin(&e, scene, path, out, diag);
+    add_head(&e);
+    add_camera(&e);
     for (size_t i = 0; i < scene->lights.n; i++)
-        add_light(&p.e, &scene->lights.at[i]);
-    declare_materials(&p);
+        add_light(&e, &scene->lights.at[i]);
+    pov_declare_materials(&e);
     for (size_t i = 0; i < scene->surfaces.n; i++)
-        add_surface(&p, &scene->surfaces.at[i]);
-    export_end(&p.e);
-    export_names_free(&p.materials);
-    free(p.name_of);
+        add_surface(&e, &scene->surfaces.at[i]);
+    export_end(&e);
 }

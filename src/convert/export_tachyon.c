@@ -1,19 +1,8 @@
-/* A scene for Tachyon 0.99, whose highlights are classic's with -shade_phong.  Its lights, like
- * classic's, need no gamma. */
+/* A scene for Tachyon 0.99, whose highlights are ours with -shade_phong.  Its lights, like
+ * classic's, need no gamma; its pictures never have one, unlike modern's. */
 #include "config.h"
 
 #include "convert/exporting.h"
-#include "scene/camera.h"
-
-#include <stdlib.h>
-
-enum { RAY_DEPTH = 5 }; /* classic's 3 reflections, with room */
-
-struct tachyon {
-    struct exporting e;
-    struct export_names materials;
-    uint32_t *name_of; /* of each of the scene's materials */
-};
 
 static void add_vector(struct buffer *out, const char *name, struct vec3 v)
 {
@@ -34,32 +23,43 @@ static void add_number(struct buffer *out, const char *name, double x)
 static void add_camera(struct exporting *e)
 {
     const struct camera *c = &e->scene->camera;
-    struct lens lens = lens_of(c, c->width, c->height);
-    struct vec3 flip = vec3(1, 1, lens.mirrored ? -1 : 1);
-    double right = vec3_length(lens.across), top = vec3_length(lens.upwards);
+    struct export_view view = export_view(e->scene);
+    double right = vec3_length(view.across), top = vec3_length(view.upwards);
     double sides[4] = {-right - right / c->width, right - right / c->width, -top - top / c->height,
                        top - top / c->height};
-    buffer_printf(
-        e->out, "CAMERA\n PROJECTION PERSPECTIVE ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH %d\n",
-        RAY_DEPTH);
-    add_vector(e->out, "CENTER", lens.origin);
-    add_vector(e->out, "VIEWDIR", vec3_mul(lens.ahead, flip));
-    add_vector(e->out, "UPDIR", vec3_mul(lens.upwards, flip));
+    buffer_printf(e->out,
+                  "CAMERA\n PROJECTION %s ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH %d\n",
+                  view.parallel ? "ORTHOGRAPHIC" : "PERSPECTIVE", export_ray_depth(e->scene));
+    add_vector(e->out, "CENTER", view.eye);
+    add_vector(e->out, "VIEWDIR", view.ahead);
+    add_vector(e->out, "UPDIR", view.upwards);
     buffer_puts(e->out, "\n FRUSTUM");
     for (int i = 0; i < 4; i++)
         add_number(e->out, "", sides[i]);
-    buffer_puts(e->out, "\nEND_CAMERA\nBACKGROUND 0 0 0\n");
+    buffer_puts(e->out, "\nEND_CAMERA\nBACKGROUND ");
+    export_vec3(e->out, e->scene->background, " ");
+    buffer_puts(e->out, "\n");
+    if (e->scene->model == SCENE_MODERN && !e->scene->linear)
+        export_lose(e, LOSS_ENCODING, (struct span){0});
 }
 
-/* A light of radius 0 is not seen itself. */
+/* A light of radius 0 is not seen itself.  One that falls off has the colour it has in the middle
+ * of the scene: Tachyon's highlights have a light's colour however far it is, and it drops light of
+ * less than a five hundredth of that. */
 static void add_light(struct exporting *e, const struct light *l)
 {
-    buffer_puts(e->out, "LIGHT");
-    add_vector(e->out, "CENTER", l->position);
-    buffer_puts(e->out, " RAD 0");
+    double strength = export_strength(e->scene, l);
+    if (l->kind == LIGHT_SUN) {
+        buffer_puts(e->out, "DIRECTIONAL_LIGHT");
+        add_vector(e->out, "DIRECTION", vec3_neg(l->position));
+    } else {
+        buffer_puts(e->out, "LIGHT");
+        add_vector(e->out, "CENTER", export_area(l).middle);
+        buffer_puts(e->out, " RAD 0");
+    }
     if (l->inverse_square)
-        buffer_puts(e->out, " ATTENUATION CONSTANT 0 LINEAR 0 QUADRATIC 1");
-    add_vector(e->out, "COLOR", l->intensity);
+        add_number(e->out, "ATTENUATION CONSTANT 0 LINEAR 0 QUADRATIC", strength);
+    add_vector(e->out, "COLOR", vec3_scale(l->intensity, strength));
     buffer_puts(e->out, "\n");
     if (l->kind == LIGHT_AREA)
         export_lose(e, LOSS_AREA_POINT, l->span);
@@ -67,14 +67,22 @@ static void add_light(struct exporting *e, const struct light *l)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-static void add_highlight(struct buffer *out, const struct material *m)
+/* Metallic highlights do not even take a light's colour: what it is on average. */
+static double metallic_light(const struct exporting *e)
+{
+    size_t n = e->scene->lights.n;
+    return n > 0 ? vec3_mean(e->light) / (double)n : 1;
+}
+
+static void add_highlight(const struct exporting *e, const struct material *m)
 {
     bool metallic = !vec3_is_even(m->specular) && export_is_tint(m->specular, m->diffuse);
     if (vec3_is_zero(m->specular))
         return;
-    add_number(out, metallic ? "PHONG METAL" : "PHONG PLASTIC",
-               vec3_mean(m->specular) / (metallic ? vec3_mean(m->diffuse) : 1));
-    add_number(out, "PHONG_SIZE", m->exponent);
+    double share = vec3_mean(m->specular) / (metallic ? vec3_mean(m->diffuse) : 1);
+    add_number(e->out, metallic ? "PHONG METAL" : "PHONG PLASTIC",
+               metallic ? share * metallic_light(e) : share);
+    add_number(e->out, "PHONG_SIZE", m->exponent);
 }
 
 /* The mean of what a texture shows at a grid of places; white without one. */
@@ -92,34 +100,18 @@ static struct vec3 mean_texel(const struct scene *scene, const struct material *
     return sum;
 }
 
-static void add_material(const struct exporting *e, struct buffer *out, const struct material *m)
+static void add_material(struct exporting *e, const struct material *m)
 {
     bool emissive = m->kind == MATERIAL_EMISSIVE;
-    double through = vec3_mean(vec3_mul(m->refraction, e->light));
-    buffer_puts(out, emissive ? "AMBIENT 1 DIFFUSE 0" : "AMBIENT 0 DIFFUSE 1");
-    add_number(out, "SPECULAR", vec3_mean(vec3_mul(m->reflection, e->light)));
-    add_number(out, "OPACITY", 1 - fmax(fmin(through, 1), 0));
-    add_highlight(out, m);
+    double through = vec3_mean(vec3_mul(m->refraction, e->bounce));
+    add_number(e->out, "AMBIENT", emissive ? 1 : vec3_mean(e->scene->ambient));
+    add_number(e->out, "DIFFUSE", !emissive);
+    add_number(e->out, "SPECULAR", vec3_mean(vec3_mul(m->reflection, e->bounce)));
+    add_number(e->out, "OPACITY", 1 - fmax(fmin(through, 1), 0));
+    add_highlight(e, m);
     struct vec3 colour = vec3_mul(m->diffuse, mean_texel(e->scene, m));
-    add_vector(out, "COLOR", emissive ? vec3_mul(colour, e->light) : colour);
-    buffer_puts(out, " TEXFUNC 0");
-}
-
-/* Equal materials, of which XML makes many, are defined once. */
-static void define_materials(struct tachyon *t)
-{
-    const struct scene *s = t->e.scene;
-    struct buffer text = {0};
-    t->name_of = mem_zalloc(s->materials.n, sizeof *t->name_of);
-    for (size_t i = 0; i < s->materials.n; i++) {
-        bool fresh;
-        text.n = 0;
-        add_material(&t->e, &text, &s->materials.at[i]);
-        t->name_of[i] = export_name(&t->materials, (struct str){text.at, text.n}, &fresh);
-        if (fresh)
-            buffer_printf(t->e.out, "TEXDEF M%u %.*s\n", t->name_of[i], (int)text.n, text.at);
-    }
-    buffer_free(&text);
+    add_vector(e->out, "COLOR", emissive ? vec3_mul(colour, e->bounce) : colour);
+    buffer_puts(e->out, " TEXFUNC 0");
 }
 
 static void note_losses(struct exporting *e, const struct surface *s, const struct material *m)
@@ -136,8 +128,13 @@ static void note_losses(struct exporting *e, const struct surface *s, const stru
         export_lose(e, LOSS_BENDING, s->span);
     if (m->kind == MATERIAL_EMISSIVE)
         export_lose(e, LOSS_EMISSIVE_SHADOW, s->span);
-    if (e->falls_off && (!vec3_is_zero(m->reflection) || !vec3_is_zero(m->refraction)))
+    bool bounces = !vec3_is_zero(m->reflection) || !vec3_is_zero(m->refraction);
+    if (e->falls_off && bounces && e->scene->model == SCENE_CLASSIC)
         export_lose(e, LOSS_FALLOFF, s->span);
+    if (e->falls_off && !vec3_is_zero(m->specular))
+        export_lose(e, LOSS_SHINE, s->span);
+    if (m->kind != MATERIAL_EMISSIVE && !vec3_is_even(e->scene->ambient))
+        export_lose(e, LOSS_AMBIENT, s->span);
 }
 
 /* ---- surfaces -------------------------------------------------------------------------------- */
@@ -182,14 +179,14 @@ static void add_vectors(struct buffer *out, const char *name, const struct vec3 
 }
 
 /* One normal a vertex.  An array takes its material written out. */
-static void add_array(struct tachyon *t, const struct surface *s, const struct facets *f)
+static void add_array(struct exporting *e, const struct surface *s, const struct facets *f)
 {
-    struct buffer *out = t->e.out;
+    struct buffer *out = e->out;
     buffer_printf(out, "VERTEXARRAY NUMVERTS %u\n", f->point_count);
     add_vectors(out, "COORDS", f->points, f->point_count);
     add_vectors(out, "NORMALS", s->normals, f->point_count);
-    buffer_puts(out, "TEXTURE ");
-    add_material(&t->e, out, &t->e.scene->materials.at[s->material]);
+    buffer_puts(out, "TEXTURE");
+    add_material(e, &e->scene->materials.at[s->material]);
     buffer_printf(out, "\nTRIMESH %zu\n", f->solid);
     for (size_t i = 0; i < f->n; i++) {
         struct triangle_corners c = export_corners(f, i);
@@ -252,11 +249,12 @@ static void add_triangle(struct buffer *out, const struct vec3 corners[3], uint3
     buffer_printf(out, " M%u\n", material);
 }
 
-static void add_placed(struct tachyon *t, const struct surface *s, uint32_t prim, uint32_t material)
+static void add_placed(struct exporting *e, const struct surface *s, uint32_t prim,
+                       uint32_t material)
 {
-    const struct scene *scene = t->e.scene;
+    const struct scene *scene = e->scene;
     const struct affine *place = export_place(scene, prim);
-    export_lose(&t->e, LOSS_UNEVEN, s->span);
+    export_lose(e, LOSS_UNEVEN, s->span);
     for (int i = 0; i < AROUND * ALONG; i++) {
         struct vec3 p[4];
         for (int k = 0; k < 4; k++) {
@@ -268,22 +266,22 @@ static void add_placed(struct tachyon *t, const struct surface *s, uint32_t prim
         }
         struct vec3 other[3] = {p[2], p[3], p[0]};
         if (i / AROUND > 0) /* not at the first pole */
-            add_triangle(t->e.out, p, material);
+            add_triangle(e->out, p, material);
         if (i / AROUND < ALONG - 1)
-            add_triangle(t->e.out, other, material);
+            add_triangle(e->out, other, material);
     }
 }
 
-static void add_surface(struct tachyon *t, const struct surface *s)
+static void add_surface(struct exporting *e, const struct surface *s)
 {
-    const struct scene *scene = t->e.scene;
-    struct buffer *out = t->e.out;
-    uint32_t material = t->name_of[s->material];
+    const struct scene *scene = e->scene;
+    struct buffer *out = e->out;
+    uint32_t material = e->name_of[s->material];
     bool round = s->kind == SURFACE_SPHERE || s->kind == SURFACE_CYLINDER;
-    note_losses(&t->e, s, &scene->materials.at[s->material]);
+    note_losses(e, s, &scene->materials.at[s->material]);
     for (uint32_t i = 0; round && i < s->prim_count; i++) {
         if (export_place(scene, s->first_prim + i))
-            add_placed(t, s, s->first_prim + i, material);
+            add_placed(e, s, s->first_prim + i, material);
         else if (s->kind == SURFACE_SPHERE)
             add_sphere(out, export_sphere(scene, s->first_prim + i), material);
         else
@@ -293,7 +291,7 @@ static void add_surface(struct tachyon *t, const struct surface *s)
         return;
     struct facets f = export_facets(scene, s);
     if (s->normals && !s->normal_corners)
-        add_array(t, s, &f);
+        add_array(e, s, &f);
     else
         add_triangles(out, s, &f, material);
 }
@@ -301,20 +299,18 @@ static void add_surface(struct tachyon *t, const struct surface *s)
 void export_tachyon(const struct scene *scene, const char *path, struct buffer *out,
                     struct diag *diag)
 {
-    struct tachyon t = {0};
-    export_begin(&t.e, scene, path, out, diag);
+    struct exporting e;
+    export_begin(&e, scene, path, out, diag);
     buffer_printf(out,
                   "# made by wrt: tachyon FILE -shade_phong -format PNG -o FILE.png\n"
                   "BEGIN_SCENE\nRESOLUTION %u %u\n",
                   scene->camera.width, scene->camera.height);
-    add_camera(&t.e);
+    add_camera(&e);
     for (size_t i = 0; i < scene->lights.n; i++)
-        add_light(&t.e, &scene->lights.at[i]);
-    define_materials(&t);
+        add_light(&e, &scene->lights.at[i]);
+    export_materials(&e, "TEXDEF M", "", add_material);
     for (size_t i = 0; i < scene->surfaces.n; i++)
-        add_surface(&t, &scene->surfaces.at[i]);
+        add_surface(&e, &scene->surfaces.at[i]);
     buffer_puts(out, "END_SCENE\n");
-    export_end(&t.e);
-    export_names_free(&t.materials);
-    free(t.name_of);
+    export_end(&e);
 }

@@ -1,6 +1,9 @@
 #include "config.h"
 
 #include "convert/exporting.h"
+#include "scene/camera.h"
+
+#include <stdlib.h>
 
 static const char *const loss_words[LOSS_COUNT] = {
 #define LOSS(id, words) [LOSS_##id] = words,
@@ -8,17 +11,32 @@ static const char *const loss_words[LOSS_COUNT] = {
 #undef LOSS
 };
 
+struct vec3 export_middle(const struct scene *scene, double *reach)
+{
+    struct box box = geometry_bounds(&scene->geometry);
+    if (!(box.lo.x <= box.hi.x))
+        box = (struct box){vec3_all(0), vec3_all(0)};
+    *reach = vec3_length(vec3_sub(box.hi, box.lo));
+    return box_center(box);
+}
+
+double export_strength(const struct scene *scene, const struct light *l)
+{
+    double reach;
+    struct vec3 d = vec3_sub(export_area(l).middle, export_middle(scene, &reach));
+    double weight = l->inverse_square ? 1 / vec3_dot(d, d) : 1;
+    return isfinite(weight) && weight > 0 ? weight : 1;
+}
+
 static void sum_lights(struct exporting *e)
 {
     const struct scene *s = e->scene;
-    struct vec3 middle = box_center(geometry_bounds(&s->geometry));
     for (size_t i = 0; i < s->lights.n; i++) {
         const struct light *l = &s->lights.at[i];
-        struct vec3 d = vec3_sub(l->position, middle);
-        double weight = l->inverse_square ? 1 / vec3_dot(d, d) : 1;
-        e->light = vec3_mad(e->light, isfinite(weight) ? weight : 1, l->intensity);
+        e->light = vec3_mad(e->light, export_strength(s, l), l->intensity);
         e->falls_off |= l->inverse_square;
     }
+    e->bounce = s->model == SCENE_CLASSIC ? e->light : vec3_all(1);
 }
 
 void export_begin(struct exporting *e, const struct scene *scene, const char *path,
@@ -44,6 +62,49 @@ void export_end(struct exporting *e)
             diag_report(e->diag, DIAG_LEFT_OUT, e->losses[i].first,
                         "%s, here for the first time of %zu", loss_words[i], times);
     }
+    map_free(&e->materials.map);
+    arena_free(&e->materials.arena);
+    free(e->name_of);
+}
+
+struct export_view export_view(const struct scene *scene)
+{
+    const struct camera *c = &scene->camera;
+    struct lens lens = lens_of(c, c->width, c->height);
+    struct vec3 flip = vec3(1, 1, lens.mirrored ? -1 : 1);
+    return (struct export_view){.eye = lens.origin,
+                                .ahead = vec3_mul(lens.ahead, flip),
+                                .across = vec3_mul(lens.across, flip),
+                                .upwards = vec3_mul(lens.upwards, flip),
+                                .parallel = lens.parallel};
+}
+
+int export_ray_depth(const struct scene *scene)
+{
+    enum { ROOM = 2, MOST = 250 }; /* POV-Ray's limit is 256 */
+    return scene->depth < MOST ? (int)scene->depth + ROOM : MOST;
+}
+
+/* Of a modern light given by four corners, these; else the two longest sides of the object's box,
+ * which classic's light need not be in the middle of. */
+struct export_area export_area(const struct light *l)
+{
+    const struct geometry *g = &l->object;
+    bool modern = l->samples.n > 0;
+    if (l->kind != LIGHT_AREA)
+        return (struct export_area){.middle = l->position};
+    if (modern && g->vertices.n == 4 && g->triangles.n == 2) {
+        const struct vec3 *v = g->vertices.at;
+        return (struct export_area){vec3_scale(vec3_add(v[0], v[2]), 0.5),
+                                    {vec3_sub(v[1], v[0]), vec3_sub(v[2], v[1])}};
+    }
+    struct box box = geometry_bounds(g);
+    struct vec3 side = vec3_sub(box.hi, box.lo);
+    double least = fmin(side.x, fmin(side.y, side.z));
+    bool flat_z = side.z == least, flat_y = !flat_z && side.y == least;
+    return (struct export_area){modern ? box_center(box) : l->position,
+                                {flat_z || flat_y ? vec3(side.x, 0, 0) : vec3(0, side.y, 0),
+                                 flat_z ? vec3(0, side.y, 0) : vec3(0, 0, side.z)}};
 }
 
 /* Adding 0 takes the sign off zeros, which directions often have. */
@@ -133,7 +194,8 @@ const struct affine *export_place(const struct scene *scene, uint32_t prim)
     return s.instance ? &s.instance->to_world : NULL;
 }
 
-uint32_t export_name(struct export_names *names, struct str text, bool *fresh)
+/* The number of the text; *fresh when it was not known before. */
+static uint32_t name_text(struct export_names *names, struct str text, bool *fresh)
 {
     uintptr_t known = (uintptr_t)map_get(&names->map, text);
     *fresh = !known;
@@ -144,8 +206,22 @@ uint32_t export_name(struct export_names *names, struct str text, bool *fresh)
     return names->n++;
 }
 
-void export_names_free(struct export_names *names)
+void export_materials(struct exporting *e, const char *before, const char *between,
+                      void (*write)(struct exporting *e, const struct material *m))
 {
-    map_free(&names->map);
-    arena_free(&names->arena);
+    const struct scene *s = e->scene;
+    struct buffer text = {0}, *out = e->out;
+    e->name_of = mem_zalloc(s->materials.n, sizeof *e->name_of);
+    for (size_t i = 0; i < s->materials.n; i++) {
+        bool fresh;
+        text.n = 0;
+        e->out = &text;
+        write(e, &s->materials.at[i]);
+        e->out = out;
+        e->name_of[i] = name_text(&e->materials, (struct str){text.at, text.n}, &fresh);
+        if (fresh)
+            buffer_printf(out, "%s%u%s%.*s\n", before, e->name_of[i], between, (int)text.n,
+                          text.at);
+    }
+    buffer_free(&text);
 }

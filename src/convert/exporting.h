@@ -7,21 +7,24 @@
 #include "convert/export.h"
 
 /* What a format cannot say, in the words of its note. */
-#define LOSSES(X)                                                                          \
-    X(NORMAL_MAP, "normal maps are left out")                                              \
-    X(TEXTURE, "textures are left out: surfaces have their mean colour")                   \
-    X(CYLINDER_UV, "the scale of textures around cylinders is left out")                   \
-    X(HIGHLIGHT, "coloured highlights become white ones of the same mean")                 \
-    X(REFLECTION, "coloured reflection becomes uncoloured of the same mean")               \
-    X(REFRACTION, "coloured refraction becomes uncoloured of the same mean")               \
-    X(BENDING, "glass is seen through without bending the light")                          \
-    X(AREA_GRID, "area lights become flat grids of points")                                \
-    X(AREA_POINT, "area lights become points: their shadows are hard")                     \
-    X(EMISSIVE_SHADOW, "emissive surfaces cast shadows")                                   \
-    X(UNEVEN, "unevenly scaled spheres and cylinders become triangles")                    \
-    X(FALLOFF,                                                                             \
-      "reflection and refraction take the strength of falling off lights from the middle " \
-      "of the scene")
+#define LOSSES(X)                                                                               \
+    X(NORMAL_MAP, "normal maps are left out")                                                   \
+    X(TEXTURE, "textures are left out: surfaces have their mean colour")                        \
+    X(CYLINDER_UV, "the scale of textures around cylinders is left out")                        \
+    X(HIGHLIGHT, "coloured highlights become white ones of the same mean")                      \
+    X(REFLECTION, "coloured reflection becomes uncoloured of the same mean")                    \
+    X(REFRACTION, "coloured refraction becomes uncoloured of the same mean")                    \
+    X(BENDING, "glass is seen through without bending the light")                               \
+    X(AREA_GRID, "area lights become flat grids of points")                                     \
+    X(AREA_POINT, "area lights become points: their shadows are hard")                          \
+    X(EMISSIVE_SHADOW, "emissive surfaces cast shadows")                                        \
+    X(UNEVEN, "unevenly scaled spheres and cylinders become triangles")                         \
+    X(FALLOFF,                                                                                  \
+      "reflection and refraction take the strength of falling off lights from the middle "      \
+      "of the scene")                                                                           \
+    X(SHINE, "highlights take the strength of falling off lights from the middle of the scene") \
+    X(AMBIENT, "coloured ambient light becomes uncoloured of the same mean")                    \
+    X(ENCODING, "the picture is not encoded as sRGB: its numbers are the light")
 
 enum loss {
 #define LOSS(id, words) LOSS_##id,
@@ -30,13 +33,23 @@ enum loss {
         LOSS_COUNT
 };
 
+/* Texts of materials, each kept once and numbered from 0. */
+struct export_names {
+    struct arena arena;
+    struct map map;
+    uint32_t n;
+};
+
 struct exporting {
     const struct scene *scene;
     const char *path; /* where the file will be */
     struct buffer *out;
     struct diag *diag;
-    struct vec3 light; /* sum of all lights' intensities: what classic scales reflections by */
-    bool falls_off;    /* a light weakens with distance, so `light` is that of the scene's middle */
+    struct vec3 light;  /* all lights' together, in the middle of the scene */
+    struct vec3 bounce; /* what reflection and refraction are scaled by: in classic that light */
+    bool falls_off;     /* a light weakens with distance: elsewhere `light` is another */
+    struct export_names materials;
+    uint32_t *name_of; /* the number of each of the scene's materials */
     struct {
         size_t times;
         struct span first;
@@ -45,9 +58,32 @@ struct exporting {
 
 void export_begin(struct exporting *e, const struct scene *scene, const char *path,
                   struct buffer *out, struct diag *diag);
-/* Reports what was left out. */
+/* Reports what was left out, and frees what the struct owns. */
 void export_end(struct exporting *e);
 void export_lose(struct exporting *e, enum loss loss, struct span span);
+
+/* What a camera sees: eye + ahead + x across + y upwards, x and y from -1 to 1; parallel rays start
+ * all over the picture, and go ahead.  Classic's mirrored directions are in it. */
+struct export_view {
+    struct vec3 eye, ahead, across, upwards;
+    bool parallel;
+};
+struct export_view export_view(const struct scene *scene);
+
+/* How often a ray may be reflected, with room. */
+int export_ray_depth(const struct scene *scene);
+
+/* The middle of all geometry, and how far from it there may be some. */
+struct vec3 export_middle(const struct scene *scene, double *reach);
+
+/* How much of a light comes to that middle. */
+double export_strength(const struct scene *scene, const struct light *l);
+
+/* An area light as a parallelogram: its middle and its sides. */
+struct export_area {
+    struct vec3 middle, sides[2];
+};
+struct export_area export_area(const struct light *l);
 
 /* The numbers of a vector with `between` between them. */
 void export_vec3(struct buffer *out, struct vec3 v, const char *between);
@@ -79,14 +115,9 @@ const struct sphere *export_sphere(const struct scene *scene, uint32_t prim);
 /* The map from that space to the world, or NULL. */
 const struct affine *export_place(const struct scene *scene, uint32_t prim);
 
-/* Texts of materials, each kept once and numbered from 0. */
-struct export_names {
-    struct arena arena;
-    struct map map;
-    uint32_t n;
-};
-/* The number of the text; *fresh when it was not known before. */
-uint32_t export_name(struct export_names *names, struct str text, bool *fresh);
-void export_names_free(struct export_names *names);
+/* Every material as `write` writes it to e->out, equal ones once: `before`, its number, `between`
+ * and the text on a line each. */
+void export_materials(struct exporting *e, const char *before, const char *between,
+                      void (*write)(struct exporting *e, const struct material *m));
 
 #endif

@@ -1,8 +1,8 @@
 /* coverage MASK DEPTH | coverage PICTURE PICTURE --colours
  *
  * How alike two programs see a scene.  MASK shows what another one hits in white; DEPTH is wrt's
- * picture of depths, twice as wide and high, of which every other pixel was sampled in the middle
- * of one of MASK's.  Prints the percentage of pixels that agree and of those that hit something.
+ * picture of depths.  In classic it is twice as wide and high, so that every other pixel was sampled
+ * in the middle of one of MASK's; in modern all are.  Prints the percentage of pixels that agree and of those that hit something.
  * With --colours the pictures have one size, and their root mean square difference is printed. */
 #include "config.h"
 
@@ -37,15 +37,21 @@ static void need_size(const struct picture *p, uint32_t width, uint32_t height)
 }
 
 /* Classic samples pixels at their lower left corner, and row 0 is the top. */
+static size_t middle_of(const struct picture *depth, uint32_t x, uint32_t y, bool doubled)
+{
+    return doubled ? (size_t)(2 * y) * depth->width + 2 * x + 1 : (size_t)y * depth->width + x;
+}
+
 static void compare_masks(const struct picture *mask, const struct picture *depth)
 {
     size_t alike = 0, covered = 0;
     double pixels = (double)mask->width * mask->height;
-    need_size(depth, 2 * mask->width, 2 * mask->height);
+    bool doubled = depth->width != mask->width;
+    need_size(depth, (doubled ? 2 : 1) * mask->width, (doubled ? 2 : 1) * mask->height);
     for (uint32_t y = 0; y < mask->height; y++)
         for (uint32_t x = 0; x < mask->width; x++) {
             bool theirs = mask->bytes[3 * ((size_t)y * mask->width + x)] > 127;
-            bool ours = depth->bytes[3 * ((size_t)(2 * y) * depth->width + 2 * x + 1)] > 0;
+            bool ours = depth->bytes[3 * middle_of(depth, x, y, doubled)] > 0;
             alike += theirs == ours;
             covered += ours;
         }

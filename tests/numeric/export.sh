@@ -29,7 +29,8 @@ white_pov()
 {
     sed '1a#declare White = texture { pigment { rgb 1 } finish { diffuse 0 emission 1 } }
          /^#declare M/s/ = .*/ = material { texture { White } }/
-         /^#declare M/!s/ material { texture .*/ material { texture { White } } }/' "$1"
+         /^#declare M/!s/ material { texture .*/ material { texture { White } } }/
+         /^background/d' "$1"
 }
 
 with_povray()
@@ -59,7 +60,9 @@ with_tachyon()
 # judge NAME WIDTH HEIGHT: the mask against wrt's depths.
 judge()
 {
-    "$wrt" render -q "$scene" --show depth --res "$((2 * $2))x$((2 * $3))" -o "$tmp/depth.ppm" || return
+    local times=$([ $model = modern ] && echo 1 || echo 2)
+    "$wrt" render -q "$scene" --show depth --res "$((times * $2))x$((times * $3))" -s 1 \
+        -o "$tmp/depth.ppm" || return
     read -r alike covered < <("$coverage" "$tmp/mask.png" "$tmp/depth.ppm")
     printf '%-24s %-8s %6s %% of pixels agree, %6s %% covered%s\n' "$(basename "$scene")" "$1" \
         "$alike" "$covered" "${colours:+, colours differ by $colours}"
@@ -78,13 +81,16 @@ shrink()
     width=$((full / k)) height=$((full_height / k))
 }
 
-scenes=("$top"/scenes/{quads,cylinders_tilted,mesh_smooth,textures,compat,wide_picture,refraction}.xml)
+modern=$top/tests/numeric/modern.wrt
+scenes=("$top"/scenes/{quads,cylinders_tilted,mesh_smooth,textures,compat,wide_picture,refraction}.xml
+    "$modern" "$top"/examples/{cornell,still_life,tutorial}.wrt)
 if [ -n "${WRT_FULL:-}" ] || [ "${1:-}" = --full ]; then
-    scenes=("$top"/scenes/*.xml)
+    scenes=("$top"/scenes/*.xml "$modern" "$top"/examples/*.wrt)
 fi
 for scene in "${scenes[@]}"; do
-    full=$(sed -n 's:.*<xResolution>\(.*\)</x.*:\1:p' "$scene")
-    full_height=$(sed -n 's:.*<yResolution>\(.*\)</y.*:\1:p' "$scene")
+    read -r full full_height < <("$wrt" convert -q "$scene" -o - --to pov |
+        sed -n '1s/.*+W\([0-9]*\) +H\([0-9]*\) .*/\1 \2/p')
+    model=$("$wrt" convert -q "$scene" -o - --to json | sed -n '1s/.*"model":"\([a-z]*\)".*/\1/p')
     shrink
     colours=
     if command -v povray >/dev/null; then

@@ -106,7 +106,8 @@ static const struct {
     {"light", export_tachyon, HEAD LAMP, "LIGHT CENTER 4 5 6 RAD 0 COLOR 0.5 0.5 0.5\n"},
     {"falloff", export_tachyon,
      HEAD "light point { position: (4, 5, 6)  intensity: 2  falloff: inverse_square }",
-     "RAD 0 ATTENUATION CONSTANT 0 LINEAR 0 QUADRATIC 1 COLOR 2 2 2\n"},
+     "RAD 0 ATTENUATION CONSTANT 0 LINEAR 0 QUADRATIC 0.012987012987012988 COLOR "
+     "0.025974025974025976 "},
     {"sphere", export_tachyon, HEAD BALL WHITE " }", "\nSPHERE CENTER 0.1 0 0 RAD 2 M0\n"},
     {"cylinder", export_tachyon,
      HEAD "cylinder { base: (1, 1, 1)  height: 2  radius: 3 " WHITE " }",
@@ -124,6 +125,40 @@ static const struct {
                     "  refraction: 1  ior: 1.5 } }",
      "AMBIENT 0 DIFFUSE 1 SPECULAR 0.5 OPACITY 0.5 COLOR 0.5 0.5 0.5 TEXFUNC 0\n"},
 };
+
+/* Words of `model modern`; tests/cli/export/modern has the rest. */
+#define MODERN                                                                                   \
+    "wrt 1\nmodel modern\n"                                                                      \
+    "camera { eye: (0, 0, -4)  look_at: 0  lens: orthographic  height: 3  resolution: (20, 10) " \
+    "}\n"
+
+START_TEST(modern_camera_is_parallel)
+{
+    struct load l;
+    char *pov = text_of(&l, MODERN, export_pov);
+    ck_assert_ptr_nonnull(strstr(pov, "orthographic\n  location <0,0,-4>"));
+    ck_assert_ptr_nonnull(strstr(pov, "right <6,0,0>\n  up <0,3,0>"));
+    ck_assert_ptr_nonnull(strstr(pov, "assumed_gamma 1 "));
+    free(pov);
+    load_free(&l);
+}
+END_TEST
+
+/* What classic scales by its lights, modern takes as it is. */
+START_TEST(modern_mirror_is_itself)
+{
+    struct load l;
+    char *pov =
+        text_of(&l,
+                MODERN LAMP LAMP BALL
+                "material: shiny { diffuse: 0  specular: 0  exponent: 1  reflection: 0.25 } }",
+                export_pov);
+    ck_assert_ptr_nonnull(strstr(pov, "reflection { rgb <0.25,0.25,0.25> }"));
+    ck_assert_uint_eq(l.diag.entries.n, 0);
+    free(pov);
+    load_free(&l);
+}
+END_TEST
 
 START_TEST(part_written)
 {
@@ -267,6 +302,8 @@ Suite *export_suite(void)
     TCase *t = tcase_create("texts");
     tcase_add_checked_fixture(t, set_up, tear_down);
     tcase_add_loop_test(t, part_written, 0, COUNT(parts));
+    tcase_add_test(t, modern_camera_is_parallel);
+    tcase_add_test(t, modern_mirror_is_itself);
     tcase_add_loop_test(t, loss_noted, 0, COUNT(notes));
     tcase_add_test(t, equal_materials_once);
     tcase_add_test(t, json_read_back);
