@@ -30,7 +30,7 @@ static void frames_for_spheres(struct frame_batch *f)
 static void frames_for_triangles(struct frame_batch *f)
 {
     const struct ray_batch *rays = f->rays;
-    bool same = true;
+    unsigned any_x = 0, any_y = 0, any_z = 0;
     for (uint32_t i = 0; i < f->n; i += LANES) {
         struct vvec3 d = v3_load(&rays->direction, i);
         vreal x = v_abs(d.x), y = v_abs(d.y), z = v_abs(d.z);
@@ -39,10 +39,13 @@ static void frames_for_triangles(struct frame_batch *f)
         v_store(f->shear_x + i, v_select(along_x, d.y, v_select(along_y, d.z, d.x)) / by);
         v_store(f->shear_y + i, v_select(along_x, d.z, v_select(along_y, d.x, d.y)) / by);
         v_store(f->axis_of + i, v_select(along_x, v_all(0), v_select(along_y, v_all(1), v_all(2))));
+        unsigned used = rays->n - i < LANES ? (1u << (rays->n - i)) - 1 : (1u << LANES) - 1;
+        any_x |= used & v_bits(along_x);
+        any_y |= used & v_bits(along_y);
+        any_z |= used & ~(v_bits(along_x) | v_bits(along_y));
     }
-    for (uint32_t i = 1; i < rays->n; i++)
-        same &= f->axis_of[i] == f->axis_of[0];
-    f->axis = same ? (int)f->axis_of[0] : -1;
+    int axes = (any_x != 0) + (any_y != 0) + (any_z != 0);
+    f->axis = axes != 1 ? -1 : any_x ? 0 : any_y ? 1 : 2;
 }
 
 static void frames_init(struct frame_batch *f, const struct geometry *g,

@@ -122,7 +122,7 @@ struct image *image_new(uint32_t width, uint32_t height, int depth)
     if (depth == 16)
         i->data16 = mem_alloc(sample_count(width, height), sizeof *i->data16);
     else
-        i->data8 = mem_alloc(sample_count(width, height), sizeof *i->data8);
+        i->data8 = mem_alloc(sample_count(width, height) + 1, sizeof *i->data8);
     return i;
 }
 
@@ -146,29 +146,11 @@ bool image_equal(const struct image *a, const struct image *b)
                     : memcmp(a->data16, b->data16, channels * sizeof *a->data16) == 0;
 }
 
-/* c from 0 to 1, bounds left out. */
-static uint8_t plain_byte(double c)
-{
-    return (uint8_t)(c * 255 + 0.1);
-}
-
-static uint8_t linear_byte(double c)
-{
-    return (uint8_t)(c * 255 + 0.5);
-}
-
-static uint8_t srgb_byte(double c)
-{
-    return (uint8_t)(srgb_encode(c) * 255 + 0.5);
-}
-
 /* The comparisons are false for NaN. */
-static uint8_t channel_byte(enum picture_encoding encoding, double c)
+static uint8_t channel_byte(double c, double rounding)
 {
-    static uint8_t (*const byte[])(double) = {[ENCODING_PLAIN] = plain_byte,
-                                              [ENCODING_SRGB] = srgb_byte,
-                                              [ENCODING_LINEAR] = linear_byte};
-    return !(c > 0) ? 0 : c < 1 ? byte[encoding](c) : 255;
+    double byte = c < 1 ? c * 255 + rounding : 255;
+    return (uint8_t)(c > 0 ? byte : 0);
 }
 
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
@@ -180,9 +162,12 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
         p->floats[at + 2] = (float)colour.z;
         return;
     }
-    p->bytes[at] = channel_byte(p->encoding, colour.x);
-    p->bytes[at + 1] = channel_byte(p->encoding, colour.y);
-    p->bytes[at + 2] = channel_byte(p->encoding, colour.z);
+    if (p->encoding == ENCODING_SRGB)
+        colour = vec3(srgb_encode(colour.x), srgb_encode(colour.y), srgb_encode(colour.z));
+    double rounding = p->encoding == ENCODING_PLAIN ? 0.1 : 0.5;
+    p->bytes[at] = channel_byte(colour.x, rounding);
+    p->bytes[at + 1] = channel_byte(colour.y, rounding);
+    p->bytes[at + 2] = channel_byte(colour.z, rounding);
 }
 
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* How the bytes of a picture hold light; floats hold it as it is. */
 enum picture_encoding {
@@ -19,8 +20,8 @@ enum picture_encoding {
 struct picture {
     uint32_t width, height;
     enum picture_encoding encoding; /* picture_new makes it plain */
-    uint8_t *bytes; /* 3 width height, or NULL */
-    float *floats;  /* 3 width height, or NULL */
+    uint8_t *bytes;                 /* 3 width height, or NULL */
+    float *floats;                  /* 3 width height, or NULL */
 };
 
 /* Largest width, height, and pixel count of a picture or texture. */
@@ -31,18 +32,30 @@ bool image_size_allowed(uint64_t width, uint64_t height);
 struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
 void picture_free(struct picture *p);
 
-/* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels at
- * once. */
+/* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels
+ * at once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
 
 /* A decoded texture: RGB, 8 or 16 bits a channel (native byte order), grey spread to three
  * channels, palettes looked up, alpha dropped, gamma and profiles ignored. */
 struct image {
     uint32_t width, height;
-    uint8_t *data8;   /* 3 width height, or NULL */
+    uint8_t *data8;   /* 3 width height, then room for image_texel8 to read on; or NULL */
     uint16_t *data16; /* 3 width height, or NULL */
     bool jpeg;        /* what the file was; PNG otherwise */
 };
+
+/* Texel number `at` of 8 bits a channel in one load: red in the low byte, then green and blue;
+ * the high byte is anything. */
+static inline int32_t image_texel8(const struct image *image, size_t at)
+{
+    uint32_t texel;
+    memcpy(&texel, image->data8 + 3 * at, sizeof texel);
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    texel = __builtin_bswap32(texel);
+#endif
+    return (int32_t)texel;
+}
 
 /* Room for the reason of a failure: lower case, no full stop, NUL-terminated. */
 enum { IMAGE_REASON_BYTES = 256 };

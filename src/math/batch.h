@@ -34,17 +34,18 @@ static inline void vec3_put(struct vec3_batch *b, uint32_t i, struct vec3 p)
     b->z[i] = p.z;
 }
 
-static inline void fill(double *to, uint32_t n, double value)
+/* Elements first to end. */
+static inline void fill(double *to, uint32_t first, uint32_t end, double value)
 {
-    for (uint32_t i = 0; i < n; i++)
+    for (uint32_t i = first; i < end; i++)
         to[i] = value;
 }
 
-static inline void vec3_fill(struct vec3_batch *to, uint32_t n, struct vec3 value)
+static inline void vec3_fill(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value)
 {
-    fill(to->x, n, value.x);
-    fill(to->y, n, value.y);
-    fill(to->z, n, value.z);
+    fill(to->x, first, end, value.x);
+    fill(to->y, first, end, value.y);
+    fill(to->z, first, end, value.z);
 }
 
 static inline void vec3_copy(struct vec3_batch *to, uint32_t n, const struct vec3_batch *from)

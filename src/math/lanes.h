@@ -9,11 +9,14 @@
 
 #if defined __AVX512F__ && defined __AVX512DQ__
 #include <immintrin.h>
+#define LANES_HAVE_FMA 1
 enum { LANES = 8 };
 #elif defined __AVX2__ && defined __FMA__
 #include <immintrin.h>
+#define LANES_HAVE_FMA 1
 enum { LANES = 4 };
 #else
+#define LANES_HAVE_FMA 0 /* fma() is a function there, slower than a division */
 enum { LANES = 2 };
 #endif
 
@@ -21,6 +24,8 @@ typedef double vreal __attribute__((vector_size(8 * LANES)));
 typedef int64_t vint __attribute__((vector_size(8 * LANES)));
 typedef double vreal_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 typedef int64_t vint_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+typedef int32_t vint32 __attribute__((vector_size(4 * LANES)));
+typedef int32_t vint32_in_memory __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
 
 static inline vreal v_load(const double *p)
 {
@@ -35,6 +40,22 @@ static inline vint v_load_int(const int64_t *p)
 static inline void v_store(double *p, vreal a)
 {
     *(vreal_in_memory *)p = a;
+}
+
+static inline vint32 v_load_int32(const int32_t *p)
+{
+    return *(const vint32_in_memory *)p;
+}
+
+/* Numbers below 2^31, their fractions cut off. */
+static inline void v_store_int32(int32_t *p, vreal a)
+{
+    *(vint32_in_memory *)p = __builtin_convertvector(a, vint32);
+}
+
+static inline vreal v_real(vint32 a)
+{
+    return __builtin_convertvector(a, vreal);
 }
 
 static inline vreal v_all(double a)
@@ -229,6 +250,20 @@ static inline vreal v_min(vreal a, vreal b)
 static inline vreal v_max(vreal a, vreal b)
 {
     return v_select(v_less(b, a), a, b);
+}
+
+/* a / b where 1 / b is known.  The same bits as the division's by Markstein's theorem (Computation
+ * of elementary functions on the IBM RISC System/6000 processor, IBM J. Res. Dev. 34, 1990):
+ * quotients must be 0 or far from overflow and underflow, b's digits not all ones. */
+static inline vreal v_quotient(vreal a, double b, double inverse)
+{
+#if LANES_HAVE_FMA
+    vreal q = a * inverse;
+    return v_fma(v_fma(v_all(-b), q, a), v_all(inverse), q);
+#else
+    (void)inverse;
+    return a / b;
+#endif
 }
 
 static inline vreal v_difference_of_products(vreal a, vreal b, vreal c, vreal d)

@@ -8,12 +8,12 @@ static void classic_light(struct worker *w)
     const struct tracer *t = w->tracer;
     uint32_t n = w->points.n;
     double shares[BATCH_ROOM];
-    vec3_fill(&w->light.direct, n, vec3_all(0));
-    vec3_fill(&w->light.intensity, n, vec3_all(0));
+    vec3_fill(&w->light.direct, 0, n, vec3_all(0));
+    vec3_fill(&w->light.intensity, 0, n, vec3_all(0));
     if (n == 0)
         return;
     struct box box = t->kernels->bounds(&w->points.p, n);
-    fill(shares + n, BATCH_ROOM - n, 0);
+    fill(shares, n, BATCH_ROOM, 0);
     for (size_t k = 0; k < t->scene->lights.n; k++) {
         lamp_shares(w, &t->lamps[k], box, shares);
         t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
@@ -43,11 +43,11 @@ static void add_refraction(struct level *level, const struct scene *scene,
         return;
     struct vec3 direction = vec3_scale(s.incoming, eta);
     direction = vec3_mad(direction, eta * c - sqrt(root), normal);
-    struct path path = {.weight = weight,
-                        .parent = points->ray[k],
-                        .crossed = surface_crossed(scene, s.surface, inside),
-                        .index = inside ? 1 : ior};
-    spawn_ray(&level->refracted, points, k, direction, &path);
+    struct path *path = spawn_ray(&level->refracted, points, k, direction);
+    path->weight = weight;
+    path->parent = points->ray[k];
+    path->crossed = surface_crossed(scene, s.surface, inside);
+    path->index = inside ? 1 : ior;
 }
 
 /* The rays' share does not depend on the light, so each is traced once, for the sum of all lights.
@@ -65,10 +65,13 @@ static void classic_spawn(struct worker *w, struct level *level, const struct pa
         struct vec3 intensity = vec3_get(&w->light.intensity, k);
         struct vec3 reflected = vec3_mul(intensity, m->reflection);
         struct vec3 refracted = vec3_mul(intensity, m->refraction);
-        struct path path = {
-            .weight = reflected, .parent = ray, .crossed = SURFACE_NONE, .index = 1};
-        if (!vec3_is_zero(reflected))
-            spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k), &path);
+        if (!vec3_is_zero(reflected)) {
+            struct path *path = spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k));
+            path->weight = reflected;
+            path->parent = ray;
+            path->crossed = SURFACE_NONE;
+            path->index = 1;
+        }
         if (!vec3_is_zero(refracted))
             add_refraction(level, w->tracer->scene, points, k, paths ? paths[ray].index : 1,
                            refracted);

@@ -153,8 +153,9 @@ static inline struct texel_places places_on(vreal u, double size, vmask *strange
 {
     vreal zero = v_all(0), one = v_all(1), t = u * size, at = v_truncate(t), rest = v_abs(t - at);
     vmask end = v_equal(u, one);
-    vreal within = at - size * v_truncate(at / size);
-    at = v_select(v_less(at, zero) | v_at_most(v_all(size), at), within, at);
+    vmask outside = v_less(at, zero) | v_at_most(v_all(size), at);
+    if (v_any(outside))
+        at = v_select(outside, at - size * v_truncate(at / size), at);
     vmask below = v_less(at, zero);
     at = v_select(below, at + size, at);
     rest = v_select(below, 1 - rest, rest);
@@ -162,25 +163,33 @@ static inline struct texel_places places_on(vreal u, double size, vmask *strange
     return (struct texel_places){v_select(end, v_all(size - 1), at), v_select(end, one, rest)};
 }
 
-/* The four texels around each place, channel by channel. */
+/* The four texels around each place. */
 struct texel_corners {
-    alignas(64) double at[4][BATCH_ROOM];                       /* numbers in the image */
+    alignas(64) int32_t at[4][BATCH_ROOM];                      /* numbers in the image */
     alignas(64) double across[BATCH_ROOM], upwards[BATCH_ROOM]; /* the place between them */
-    struct vec3_batch texel[4];
+    alignas(64) int32_t texel8[4][BATCH_ROOM];                  /* red in the low byte */
+    struct vec3_batch texel16[4];
 };
 
 static void load_texels(const struct image *image, uint32_t n, int corners, struct texel_corners *c)
 {
     for (int k = 0; k < corners; k++) {
-        for (uint32_t i = 0; i < n && image->data8; i++) {
-            const uint8_t *p = image->data8 + 3 * (size_t)c->at[k][i];
-            vec3_put(&c->texel[k], i, vec3(p[0], p[1], p[2]));
-        }
+        for (uint32_t i = 0; i < n && image->data8; i++)
+            c->texel8[k][i] = image_texel8(image, (size_t)c->at[k][i]);
         for (uint32_t i = 0; i < n && image->data16; i++) {
             const uint16_t *p = image->data16 + 3 * (size_t)c->at[k][i];
-            vec3_put(&c->texel[k], i, vec3(p[0], p[1], p[2]));
+            vec3_put(&c->texel16[k], i, vec3(p[0], p[1], p[2]));
         }
     }
+}
+
+static inline struct vvec3 corner(const struct image *image, const struct texel_corners *c, int k,
+                                  uint32_t i)
+{
+    if (image->data16)
+        return v3_load(&c->texel16[k], i);
+    vint32 texel = v_load_int32(c->texel8[k] + i);
+    return (struct vvec3){v_real(texel & 255), v_real(texel >> 8 & 255), v_real(texel >> 16 & 255)};
 }
 
 static inline struct vvec3 v3_mix(struct vvec3 a, struct vvec3 b, vreal share_of_b)
@@ -205,10 +214,10 @@ static uint64_t place_corners(const struct image *image, const double *u, const 
         vreal right = v_select(v_less(x.at + 1, v_all(width)), x.at + 1, zero);
         vreal above = v_select(v_less(y.at + 1, v_all(height)), y.at + 1, zero);
         vreal low = (height - 1 - y.at) * width, high = (height - 1 - above) * width;
-        v_store(c->at[0] + i, low + x.at);
-        v_store(c->at[1] + i, low + right);
-        v_store(c->at[2] + i, high + x.at);
-        v_store(c->at[3] + i, high + right);
+        v_store_int32(c->at[0] + i, low + x.at);
+        v_store_int32(c->at[1] + i, low + right);
+        v_store_int32(c->at[2] + i, high + x.at);
+        v_store_int32(c->at[3] + i, high + right);
         v_store(c->across + i, x.rest);
         v_store(c->upwards + i, y.rest);
     }
@@ -228,14 +237,16 @@ static void texels(const struct texture *texture, const double *u, const double 
     uint64_t strange = place_corners(image, u, v, n, &c);
     load_texels(image, n, texture->linear ? 4 : 1, &c);
     for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 t = v3_load(&c.texel[0], i);
+        struct vvec3 t = corner(image, &c, 0, i);
         if (texture->linear) {
             vreal x = v_load(c.across + i);
-            t = v3_mix(v3_mix(t, v3_load(&c.texel[1], i), x),
-                       v3_mix(v3_load(&c.texel[2], i), v3_load(&c.texel[3], i), x),
+            t = v3_mix(v3_mix(t, corner(image, &c, 1, i), x),
+                       v3_mix(corner(image, &c, 2, i), corner(image, &c, 3, i), x),
                        v_load(c.upwards + i));
         }
-        v3_store(out, i, (struct vvec3){t.x / full, t.y / full, t.z / full});
+        v3_store(out, i,
+                 (struct vvec3){v_quotient(t.x, full, 1 / full), v_quotient(t.y, full, 1 / full),
+                                v_quotient(t.z, full, 1 / full)});
     }
     for (; strange; strange &= strange - 1) {
         uint32_t k = (uint32_t)__builtin_ctzll(strange);

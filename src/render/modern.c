@@ -269,13 +269,13 @@ static void spawn_from(struct worker *w, struct level *level, const struct path 
                             .media = media_beyond(media, p.s.surface, entering)};
         double before = entering || media->n > 0 ? index_inside(scene, media) : m->ior;
         if (refracted(&p, before / index_inside(scene, &path.media), &direction))
-            spawn_ray(&level->refracted, &w->points, k, direction, &path);
+            *spawn_ray(&level->refracted, &w->points, k, direction) = path;
         else
             reflection = vec3_add(reflection, m->refraction);
     }
     struct path path = {.weight = reflection, .parent = ray, .media = *media};
     if (!vec3_is_zero(reflection))
-        spawn_ray(&level->reflected, &w->points, k, mirrored(&p), &path);
+        *spawn_ray(&level->reflected, &w->points, k, mirrored(&p)) = path;
 }
 
 static void modern_spawn(struct worker *w, struct level *level, const struct path *paths)

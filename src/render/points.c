@@ -39,9 +39,10 @@ static void find_targets(const struct tracer *t, const struct ray_batch *rays,
 static void meet_crossed_surfaces(struct worker *w, const struct ray_batch *rays,
                                   const struct path *paths, bool *inside)
 {
-    for (uint32_t i = 0; i < rays->n; i++) {
+    memset(inside, 0, BATCH * sizeof *inside);
+    for (uint32_t i = 0; i < rays->n && paths && !w->tracer->modern; i++) {
         struct hit hit;
-        inside[i] = paths && !w->tracer->modern && paths[i].crossed != SURFACE_NONE &&
+        inside[i] = paths[i].crossed != SURFACE_NONE &&
                     hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit);
         if (inside[i])
             hit_put(&w->hits, i, &hit);
@@ -60,27 +61,25 @@ static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, u
                          uint32_t end, struct prim prim)
 {
     const struct geometry *g = &scene->geometry;
-    for (uint32_t k = first; k < end; k++) {
-        if (prim.kind == PRIM_SPHERE) {
-            const struct sphere *s = &g->spheres.at[prim.index];
-            vec3_put(&shapes->at, k, s->center);
-            shapes->radius[k] = s->radius;
-        } else if (prim.kind == PRIM_CYLINDER) {
-            const struct cylinder *c = &g->cylinders.at[prim.index];
-            vec3_put(&shapes->at, k, c->base);
-            vec3_put(&shapes->along, k, c->axis);
-            shapes->radius[k] = c->radius;
-            shapes->height[k] = c->height;
-        } else if (prim.kind == PRIM_TRIANGLE) {
-            const struct triangle *t = &g->triangles.at[prim.index];
-            vec3_put(&shapes->at, k, g->vertices.at[t->vertex[0]]);
-            vec3_put(&shapes->along, k, t->normal);
-            if (!interpolates(&scene->surfaces.at[prim.surface]))
-                continue;
-            vec3_put(&shapes->second, k, g->vertices.at[t->vertex[1]]);
-            vec3_put(&shapes->third, k, g->vertices.at[t->vertex[2]]);
-            shapes->weighted = true;
-        }
+    if (prim.kind == PRIM_SPHERE) {
+        const struct sphere *s = &g->spheres.at[prim.index];
+        vec3_fill(&shapes->at, first, end, s->center);
+        fill(shapes->radius, first, end, s->radius);
+    } else if (prim.kind == PRIM_CYLINDER) {
+        const struct cylinder *c = &g->cylinders.at[prim.index];
+        vec3_fill(&shapes->at, first, end, c->base);
+        vec3_fill(&shapes->along, first, end, c->axis);
+        fill(shapes->radius, first, end, c->radius);
+        fill(shapes->height, first, end, c->height);
+    } else if (prim.kind == PRIM_TRIANGLE) {
+        const struct triangle *t = &g->triangles.at[prim.index];
+        vec3_fill(&shapes->at, first, end, g->vertices.at[t->vertex[0]]);
+        vec3_fill(&shapes->along, first, end, t->normal);
+        if (!interpolates(&scene->surfaces.at[prim.surface]))
+            return;
+        vec3_fill(&shapes->second, first, end, g->vertices.at[t->vertex[1]]);
+        vec3_fill(&shapes->third, first, end, g->vertices.at[t->vertex[2]]);
+        shapes->weighted = true;
     }
 }
 
@@ -187,31 +186,6 @@ static void find_points_on_instances(struct worker *w)
 
 /* ---- their surfaces -------------------------------------------------------------------------- */
 
-static void add_textured(struct textured *t, uint32_t point, uint32_t texture,
-                         const struct uv_map *map, struct vec2 uv)
-{
-    t->point[t->n] = point;
-    t->texture[t->n] = texture;
-    t->u[t->n] = uv.x * map->scale.x + map->offset.x;
-    t->v[t->n++] = uv.y * map->scale.y + map->offset.y;
-}
-
-static void note_textures(struct worker *w, uint32_t k, const struct surface *surface,
-                          const struct hit *hit)
-{
-    struct shade_batch *points = &w->points;
-    const struct material *m = points->finish[k]->material;
-    struct vec2 uv = surface_uv(w->tracer->scene, surface, hit, vec3_get(&points->p, k));
-    if (surface->normal_map != TEXTURE_NONE) {
-        struct textured *bumps = &w->bumps;
-        add_textured(bumps, k, surface->normal_map, &surface->uv, uv);
-        if (!w->tracer->modern) /* the original's material starts from the mapped ones */
-            uv = (struct vec2){bumps->u[bumps->n - 1], bumps->v[bumps->n - 1]};
-    }
-    if (m->texture != TEXTURE_NONE)
-        add_textured(&w->paints, k, m->texture, &m->uv, uv);
-}
-
 static struct hit hit_of_point(const struct worker *w, uint32_t k)
 {
     const struct shade_batch *points = &w->points;
@@ -220,6 +194,68 @@ static struct hit hit_of_point(const struct worker *w, uint32_t k)
                         .part = (uint32_t)w->shapes.part[k],
                         .b1 = points->b1[k],
                         .b2 = points->b2[k]};
+}
+
+/* Texture coordinates of points first to end, which lie on one primitive. */
+static void find_uv(const struct worker *w, uint32_t first, uint32_t end,
+                    const struct surface *surface, double *u, double *v)
+{
+    const struct scene *scene = w->tracer->scene;
+    const struct shade_batch *points = &w->points;
+    uint32_t prim = points->prim[first];
+    if (surface->uvs && scene->geometry.prims.at[prim].kind == PRIM_TRIANGLE) {
+        const struct vec2 *corner = surface->uvs + 3 * (prim - surface->first_prim);
+        for (uint32_t k = first; k < end; k++) {
+            struct vec2 uv = triangle_uv(corner, points->b1[k], points->b2[k]);
+            u[k - first] = uv.x;
+            v[k - first] = uv.y;
+        }
+        return;
+    }
+    for (uint32_t k = first; k < end; k++) {
+        struct hit hit = hit_of_point(w, k);
+        struct vec2 uv = surface_uv(scene, surface, &hit, vec3_get(&points->p, k));
+        u[k - first] = uv.x;
+        v[k - first] = uv.y;
+    }
+}
+
+/* Adds points first to end, whose coordinates are u and v, where `map` puts them. */
+static void add_textured(struct textured *t, uint32_t first, uint32_t end, uint32_t texture,
+                         const struct uv_map *map, const double *u, const double *v)
+{
+    uint32_t n = end - first;
+    for (uint32_t i = 0; i < n; i++) {
+        t->point[t->n + i] = first + i;
+        t->texture[t->n + i] = texture;
+        t->u[t->n + i] = u[i] * map->scale.x + map->offset.x;
+        t->v[t->n + i] = v[i] * map->scale.y + map->offset.y;
+    }
+    t->n += n;
+}
+
+/* Points first to end lie on one surface. */
+static void note_textures(struct worker *w, uint32_t first, uint32_t end,
+                          const struct surface *surface)
+{
+    const struct material *m = w->points.finish[first]->material;
+    struct textured *bumps = &w->bumps;
+    double found[2][BATCH], *u = found[0], *v = found[1];
+    for (uint32_t k = first, next; k < end; k = next) {
+        next = k + 1;
+        while (next < end && w->points.prim[next] == w->points.prim[k])
+            next++;
+        find_uv(w, k, next, surface, u + k - first, v + k - first);
+    }
+    if (surface->normal_map != TEXTURE_NONE) {
+        add_textured(bumps, first, end, surface->normal_map, &surface->uv, u, v);
+        if (!w->tracer->modern) { /* the original's material starts from the mapped ones */
+            u = bumps->u + bumps->n - (end - first);
+            v = bumps->v + bumps->n - (end - first);
+        }
+    }
+    if (m->texture != TEXTURE_NONE)
+        add_textured(&w->paints, first, end, m->texture, &m->uv, u, v);
 }
 
 /* Modern: the other normals, and where shadow rays start. */
@@ -237,19 +273,24 @@ static void raise_point(struct shade_batch *points, uint32_t k, const struct sce
                  surface_lift(scene, surface, hit, vec3_get(&points->p, k), outwards));
 }
 
-/* Normals that are not the primitive's own, and what textures say. */
-static void apply_surface(struct worker *w, uint32_t k, const struct surface *surface)
+/* Of points first to end, which lie on one surface: normals that are not the primitive's own, and
+ * what textures say. */
+static void apply_surface(struct worker *w, uint32_t first, uint32_t end,
+                          const struct surface *surface)
 {
     const struct scene *scene = w->tracer->scene;
     struct shade_batch *points = &w->points;
-    struct hit hit = hit_of_point(w, k);
-    if (surface->normals || surface->flip)
-        vec3_put(&points->normal, k,
-                 surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
-    if (w->tracer->modern)
-        raise_point(points, k, scene, surface, &hit);
+    bool modern = w->tracer->modern, turns = surface->normals || surface->flip;
+    for (uint32_t k = first; k < end && (turns || modern); k++) {
+        struct hit hit = hit_of_point(w, k);
+        if (turns)
+            vec3_put(&points->normal, k,
+                     surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
+        if (modern)
+            raise_point(points, k, scene, surface, &hit);
+    }
     if (surface->needs_uv)
-        note_textures(w, k, surface, &hit);
+        note_textures(w, first, end, surface);
 }
 
 /* The texels of one texture's points; out by point.  Takes these out of `todo`, a bit for each. */
@@ -258,7 +299,7 @@ static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, u
 {
     const struct tracer *tracer = w->tracer;
     uint32_t texture = t->texture[__builtin_ctzll(todo)], which[BATCH], n = 0;
-    double u[BATCH_ROOM] = {0}, v[BATCH_ROOM] = {0};
+    double u[BATCH_ROOM], v[BATCH_ROOM];
     struct vec3_batch texels;
     for (uint32_t i = 0; i < t->n; i++) {
         if (t->texture[i] != texture)
@@ -268,6 +309,8 @@ static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, u
         v[n] = t->v[i];
         which[n++] = t->point[i];
     }
+    fill(u, n, BATCH_ROOM, 0);
+    fill(v, n, BATCH_ROOM, 0);
     tracer->kernels->texels(&tracer->scene->textures.at[texture], u, v, n, &texels);
     for (uint32_t i = 0; i < n; i++)
         vec3_put(out, which[i], vec3_get(&texels, i));
@@ -277,6 +320,11 @@ static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, u
 static void fetch_texels(const struct worker *w, const struct textured *t, struct vec3_batch *out)
 {
     uint64_t todo = UINT64_MAX >> (BATCH - t->n);
+    if (t->whole) {
+        w->tracer->kernels->texels(&w->tracer->scene->textures.at[t->texture[0]], t->u, t->v, t->n,
+                                   out);
+        return;
+    }
     while (todo)
         todo = fetch_of_one(w, t, todo, out);
 }
@@ -335,21 +383,29 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
     for (uint32_t k = first; k < end; k++) {
         points->finish[k] = finish;
         points->power[k] = finish->power;
-        vec3_put(&points->diffuse, k, diffuse);
-        vec3_put(&points->specular, k, finish->specular);
     }
+    vec3_fill(&points->diffuse, first, end, diffuse);
+    vec3_fill(&points->specular, first, end, finish->specular);
     points->any_uneven |= finish->uneven;
     points->any_glowing |= finish->glows;
     points->any_bounces |= finish->bounces;
     if (surface->normals || surface->flip || surface->needs_uv)
-        for (uint32_t k = first; k < end; k++)
-            apply_surface(w, k, surface);
+        apply_surface(w, first, end, surface);
+}
+
+static bool one_surface(const struct shade_batch *points)
+{
+    uint32_t differing = 0;
+    for (uint32_t k = 1; k < points->n; k++)
+        differing |= points->surface[k] ^ points->surface[0];
+    return differing == 0;
 }
 
 static void finish_points(struct worker *w)
 {
     struct shade_batch *points = &w->points;
     w->bumps.n = w->paints.n = 0;
+    w->bumps.whole = w->paints.whole = points->n > 0 && one_surface(points);
     if (w->tracer->modern) {
         vec3_copy(&points->geometric, points->n, &points->normal);
         vec3_copy(&points->smooth, points->n, &points->normal);

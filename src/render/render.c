@@ -71,14 +71,17 @@ static void report_progress(struct job *job, unsigned worker)
         p->report(p->context, (double)done / (double)job->tiles);
 }
 
-/* Where in pixel (i, j), j counted from the bottom, its sample is: jittered anew for each pixel. */
-static struct sample jittered(const struct tracer *t, uint32_t i, uint32_t j, struct sample s)
+/* The sample's place in pixel (i, j), j counted from the bottom: jittered anew for each pixel. */
+static void jitter(const struct tracer *t, uint32_t i, uint32_t j, const struct sample *s,
+                   double *x, double *y)
 {
     const struct render_options *o = t->options;
-    uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s.l * o->grid + s.k;
-    double x = rng_uniform(o->seed, pixel, number, 0), y = rng_uniform(o->seed, pixel, number, 1);
-    return t->modern ? modern_sample(s.k, s.l, o->grid, x, y)
-                     : classic_sample(s.k, s.l, o->grid, x, y);
+    uint64_t pixel = (uint64_t)j * o->width + i, number = (uint64_t)s->l * o->grid + s->k;
+    double u = rng_uniform(o->seed, pixel, number, 0), v = rng_uniform(o->seed, pixel, number, 1);
+    struct sample at = t->modern ? modern_sample(s->k, s->l, o->grid, u, v)
+                                 : classic_sample(s->k, s->l, o->grid, u, v);
+    *x = camera_place(&t->scene->camera, i + at.x, o->width);
+    *y = camera_place(&t->scene->camera, j + at.y, o->height);
 }
 
 /* The camera rays through this sample of all the tile's pixels, row by row. */
@@ -89,18 +92,22 @@ static const struct ray_batch *camera_rays(struct worker *w, const struct tile *
     const struct render_options *o = t->options;
     const struct camera *camera = &t->scene->camera;
     struct ray_batch *rays = &w->camera_rays;
-    double x[BATCH_ROOM], y[BATCH_ROOM];
+    double x[BATCH_ROOM], y[BATCH_ROOM], columns[TILE];
     uint32_t n = 0;
+    for (uint32_t i = tile->x0; i < tile->x1; i++)
+        columns[i - tile->x0] = camera_place(camera, i + sample->x, o->width);
     for (uint32_t row = tile->y0; row < tile->y1; row++) {
-        for (uint32_t i = tile->x0; i < tile->x1; i++) {
-            uint32_t j = o->height - 1 - row;
-            struct sample s = o->jitter ? jittered(t, i, j, *sample) : *sample;
-            x[n] = camera_place(camera, i + s.x, o->width);
-            y[n++] = camera_place(camera, j + s.y, o->height);
+        uint32_t j = o->height - 1 - row;
+        double up = camera_place(camera, j + sample->y, o->height);
+        for (uint32_t i = tile->x0; i < tile->x1; i++, n++) {
+            x[n] = columns[i - tile->x0];
+            y[n] = up;
+            if (o->jitter)
+                jitter(t, i, j, sample, &x[n], &y[n]);
         }
     }
-    fill(x + n, BATCH_ROOM - n, 0);
-    fill(y + n, BATCH_ROOM - n, 0);
+    fill(x, n, BATCH_ROOM, 0);
+    fill(y, n, BATCH_ROOM, 0);
     rays->n = n;
     if (!t->lens.parallel)
         t->kernels->aim(&t->lens, x, y, n, &rays->direction);
@@ -123,7 +130,7 @@ static void add_samples(struct worker *w, const struct tile *tile, const struct 
 static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_batch *colours)
 {
     uint32_t n = w->tracer->options->grid;
-    vec3_fill(colours, BATCH, vec3_all(0));
+    vec3_fill(colours, 0, BATCH, vec3_all(0));
     for (uint32_t k = 0; k < n; k++) {
         for (uint32_t l = 0; l < n; l++) {
             struct sample sample = sample_at(w->tracer, k, l, n);

@@ -144,9 +144,9 @@ enum cover { COVER_NONE, COVER_SOME, COVER_ALL };
 /* The lamp as a shade point sees it. */
 struct aim {
     struct vec3 p, to_center;
-    double distance; /* to the lamp's center */
-    double tangent;  /* length of a tangent to the lamp's ball */
-    double radius;   /* of the lamp's ball */
+    double distance;           /* to the lamp's center */
+    double tangent;            /* length of a tangent to the lamp's ball */
+    double radius;             /* of the lamp's ball */
     double least_reach, reach; /* how far shadow rays go, the shortest and the longest */
 };
 
@@ -334,13 +334,22 @@ static double area_share(struct worker *w, const struct lamp *lamp, const struct
     return view == LAMP_OPEN;
 }
 
+/* The points that a light lights at all. */
+static uint32_t lit_points(const struct shade_batch *points, uint32_t which[BATCH])
+{
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < points->n; k++)
+        if (!points->any_glowing || !points->finish[k]->glows)
+            which[n++] = k;
+    return n;
+}
+
 /* Nothing stands between any of the points and the lamp. */
 static void open_shares(struct worker *w, double *shares)
 {
-    for (uint32_t i = 0; i < w->points.n; i++) {
-        shares[i] = 1;
-        w->stats.shadow_skipped += !w->points.finish[i]->glows;
-    }
+    uint32_t which[BATCH];
+    fill(shares, 0, w->points.n, 1);
+    w->stats.shadow_skipped += lit_points(&w->points, which);
 }
 
 /* Modern's shadow rays end this much of their length before the light, so that what the light lies
@@ -352,42 +361,48 @@ double shadow_reach(const struct tracer *t, const struct light *light)
     return light->kind == LIGHT_SUN ? RAY_UNBOUNDED : t->modern ? 1 - LIGHT_CLEARANCE : 1;
 }
 
-/* The rays from the points to the light; all of them, or those that it lights at all. */
-static void aim_at_light(struct worker *w, const struct light *light, uint32_t *which)
+static void subtract(double from, const double *x, uint32_t n, double *difference)
+{
+    for (uint32_t i = 0; i < n; i++)
+        difference[i] = from - x[i];
+}
+
+/* The rays from n of the points to the light. */
+static void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which,
+                         uint32_t n)
 {
     const struct shade_batch *points = &w->points;
     const struct vec3_batch *from = w->tracer->modern ? &points->lifted : &points->p;
     struct ray_batch *rays = &w->shadow_rays;
-    double t_max = shadow_reach(w->tracer, light);
-    rays->n = 0;
-    for (uint32_t k = 0; k < points->n; k++)
-        if (!points->finish[k]->glows)
-            which[rays->n++] = k;
-    if (rays->n == points->n)
-        vec3_copy(&rays->origin, points->n, from);
-    for (uint32_t i = 0; i < rays->n && rays->n < points->n; i++)
+    if (n == points->n)
+        vec3_copy(&rays->origin, n, from);
+    for (uint32_t i = 0; i < n && n < points->n; i++)
         vec3_put(&rays->origin, i, vec3_get(from, which[i]));
-    for (uint32_t i = 0; i < rays->n; i++) {
-        rays->t_max[i] = t_max;
+    for (uint32_t i = 0; i < n; i++)
         rays->from[i] = points->prim[which[i]];
-        vec3_put(&rays->direction, i, vec3_sub(light->position, vec3_get(&rays->origin, i)));
+    fill(rays->t_max, 0, n, shadow_reach(w->tracer, light));
+    if (light->kind == LIGHT_SUN) {
+        vec3_fill(&rays->direction, 0, n, light->position);
+    } else {
+        subtract(light->position.x, rays->origin.x, n, rays->direction.x);
+        subtract(light->position.y, rays->origin.y, n, rays->direction.y);
+        subtract(light->position.z, rays->origin.z, n, rays->direction.z);
     }
-    if (light->kind == LIGHT_SUN)
-        vec3_fill(&rays->direction, rays->n, light->position);
-    rays->common_origin = rays->n == 1;
+    rays->n = n;
+    rays->common_origin = n == 1;
 }
 
 static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
                          double *shares)
 {
     bool blocked[BATCH];
-    uint32_t which[BATCH];
-    aim_at_light(w, lamp->light, which);
-    fill(shares, w->points.n, 1);
-    if (w->shadow_rays.n == 0)
+    uint32_t which[BATCH], n = lit_points(&w->points, which);
+    fill(shares, 0, w->points.n, 1);
+    if (n == 0)
         return;
+    aim_at_light(w, lamp->light, which, n);
     find_blocked(w, list, blocked);
-    for (uint32_t i = 0; i < w->shadow_rays.n; i++)
+    for (uint32_t i = 0; i < n; i++)
         shares[which[i]] = blocked[i] ? 0 : 1;
 }
 

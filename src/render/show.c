@@ -30,7 +30,7 @@ static struct vec3 shown_colour(const struct tracer *t, const struct shade_batch
 void show_batch(struct worker *w, const struct ray_batch *rays, const double range[2], bool bytes,
                 struct vec3_batch *colours)
 {
-    vec3_fill(colours, rays->n, vec3_all(0));
+    vec3_fill(colours, 0, rays->n, vec3_all(0));
     find_points(w, rays, NULL);
     for (uint32_t k = 0; k < w->points.n; k++)
         vec3_put(colours, w->points.ray[k], shown_colour(w->tracer, &w->points, k, range, bytes));

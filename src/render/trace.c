@@ -38,17 +38,6 @@ static struct level *level_at(struct worker *w, uint32_t depth)
     return level;
 }
 
-void spawn_ray(struct offspring *o, const struct shade_batch *points, uint32_t k,
-               struct vec3 direction, const struct path *path)
-{
-    uint32_t i = o->rays.n++;
-    vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
-    vec3_put(&o->rays.direction, i, direction);
-    o->rays.t_max[i] = RAY_UNBOUNDED;
-    o->rays.from[i] = points->prim[k];
-    o->paths[i] = *path;
-}
-
 /* Traces the rays and adds their share to their parents' colours. */
 static void trace_offspring(struct worker *w, struct level *level, uint32_t depth,
                             const struct offspring *o, struct vec3_batch *colours)
@@ -70,7 +59,7 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
 {
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
-    vec3_fill(colours, rays->n, t->scene->background);
+    vec3_fill(colours, 0, rays->n, t->scene->background);
     find_points(w, rays, paths);
     t->shading->light(w);
     for (uint32_t k = 0; k < w->points.n; k++)

@@ -136,6 +136,7 @@ struct light_batch {
 /* Points that take their colour or normal from textures. */
 struct textured {
     uint32_t n;
+    bool whole;              /* if any, all points in their order, and one texture */
     uint32_t point[BATCH];   /* which */
     uint32_t texture[BATCH]; /* whose */
     double u[BATCH_ROOM], v[BATCH_ROOM];
@@ -240,10 +241,19 @@ struct vec3 finish_diffuse(const struct finish *f, struct vec3 diffuse, double c
 double finish_highlight(const struct finish *f, double cosine);
 const struct render_kernels *render_kernels_of(enum isa isa);
 
-/* trace.c: adds a ray that starts at point k. */
-void spawn_ray(struct offspring *o, const struct shade_batch *points, uint32_t k,
-               struct vec3 direction, const struct path *path);
-/* The colours seen along the rays; paths is NULL for camera rays. */
+/* Adds a ray that starts at point k; the caller fills in its path. */
+static inline struct path *spawn_ray(struct offspring *o, const struct shade_batch *points,
+                                     uint32_t k, struct vec3 direction)
+{
+    uint32_t i = o->rays.n++;
+    vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
+    vec3_put(&o->rays.direction, i, direction);
+    o->rays.t_max[i] = RAY_UNBOUNDED;
+    o->rays.from[i] = points->prim[k];
+    return &o->paths[i];
+}
+
+/* trace.c: the colours seen along the rays; paths is NULL for camera rays. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
                  const struct path *paths, struct vec3_batch *colours);
 struct worker *worker_new(const struct tracer *tracer);

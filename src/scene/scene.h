@@ -22,11 +22,11 @@ struct camera {
     struct vec3 origin;
     struct vec3 back; /* from the scene to the eye, any length */
     struct vec3 up;
-    double yfov;              /* degrees; classic: half the field of view once times the aspect
-                                 ratio; modern: the full vertical one, or 0: parallel rays */
-    double view_height;       /* of a picture by parallel rays */
-    uint32_t width, height;   /* the scene's own resolution */
-    bool compatible;          /* classic: compatMode 1; 0 negates the world z of directions */
+    double yfov;            /* degrees; classic: half the field of view once times the aspect
+                               ratio; modern: the full vertical one, or 0: parallel rays */
+    double view_height;     /* of a picture by parallel rays */
+    uint32_t width, height; /* the scene's own resolution */
+    bool compatible;        /* classic: compatMode 1; 0 negates the world z of directions */
     bool modern;
 };
 
@@ -34,8 +34,8 @@ struct texture {
     const struct image *image; /* one of the scene's */
     bool linear;               /* bilinear filter, else nearest */
     bool centred;              /* modern: texels are at their centres */
-    const double *decode;      /* modern: a sample's light, from 0 to 1; NULL: it over the largest */
-    const char *file;          /* relative to the current folder */
+    const double *decode; /* modern: a sample's light, from 0 to 1; NULL: it over the largest */
+    const char *file;     /* relative to the current folder */
 };
 
 /* uv * scale + offset */
@@ -72,16 +72,16 @@ struct surface {
     enum surface_kind kind;
     uint32_t material;
     uint32_t first_prim, prim_count;
-    uint32_t first_vertex;  /* triangle, quad, mesh */
-    uint32_t normal_map;    /* texture, or TEXTURE_NONE */
-    struct uv_map uv;       /* of the normal map */
-    bool needs_uv;          /* its material has a texture or it has a normal map */
-    bool flip;              /* mesh: normals negated */
+    uint32_t first_vertex;      /* triangle, quad, mesh */
+    uint32_t normal_map;        /* texture, or TEXTURE_NONE */
+    struct uv_map uv;           /* of the normal map */
+    bool needs_uv;              /* its material has a texture or it has a normal map */
+    bool flip;                  /* mesh: normals negated */
     const struct vec3 *normals; /* smooth mesh: one a vertex, from first_vertex on; or NULL */
     const struct triangle_corners *normal_corners; /* normals by face instead; or NULL */
-    const struct vec2 *uvs;     /* three a primitive, or NULL */
-    struct span span;           /* where the scene text says it */
-    uint32_t described;         /* its number among the description's surfaces */
+    const struct vec2 *uvs;                        /* three a primitive, or NULL */
+    struct span span;                              /* where the scene text says it */
+    uint32_t described;                            /* its number among the description's surfaces */
 };
 
 enum light_kind { LIGHT_POINT, LIGHT_AREA, LIGHT_SUN };
@@ -89,9 +89,9 @@ enum light_kind { LIGHT_POINT, LIGHT_AREA, LIGHT_SUN };
 /* A point of an area light's sample grid; equal points are merged. */
 struct light_point {
     struct vec3 position;
-    uint32_t count;   /* how many grid points lie here */
-    bool on_object;   /* lies on the light's object: always counts */
-    bool inside;      /* clearly inside a sphere: every ray through it meets the object */
+    uint32_t count; /* how many grid points lie here */
+    bool on_object; /* lies on the light's object: always counts */
+    bool inside;    /* clearly inside a sphere: every ray through it meets the object */
 };
 
 /* A place on an area light's surface, modern. */
@@ -106,13 +106,13 @@ struct light {
     struct vec3 intensity;
     bool inverse_square;
     /* area lights: */
-    struct geometry object; /* not part of the scene's geometry */
+    struct geometry object;           /* not part of the scene's geometry */
     VEC(struct light_point) points;   /* classic */
     VEC(struct light_sample) samples; /* modern: `grid` x `grid`, at their strata's centres */
     VEC(double) areas;                /* modern: of the object's primitives and all before them */
     uint32_t grid;
-    double growth;   /* modern: of the samples' areas, on average, when an instance is placed */
-    bool both_sides; /* modern: its normals have no outside */
+    double growth;    /* modern: of the samples' areas, on average, when an instance is placed */
+    bool both_sides;  /* modern: its normals have no outside */
     struct span span; /* where the scene text says it */
 };
 
@@ -120,8 +120,8 @@ struct scene {
     struct arena arena; /* owns normals, uvs, decoding tables and names */
     enum scene_model model;
     struct vec3 background, ambient; /* modern */
-    uint32_t depth, grid;            /* of rays, and samples along a pixel, unless asked otherwise */
-    bool linear;                     /* modern: pictures hold light as it is, not sRGB */
+    uint32_t depth, grid; /* of rays, and samples along a pixel, unless asked otherwise */
+    bool linear;          /* modern: pictures hold light as it is, not sRGB */
     struct camera camera;
     struct geometry geometry;
     VEC(struct surface) surfaces;
@@ -156,6 +156,15 @@ struct vec3 texture_fetch(const struct texture *t, double u, double v);
  * p is the hit point.  Only for surfaces with needs_uv. */
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p);
+
+/* That of a hit on a triangle with these coordinates at its corners, and weights of the second and
+ * the third. */
+static inline struct vec2 triangle_uv(const struct vec2 corner[3], double b1, double b2)
+{
+    double b0 = 1 - b1 - b2;
+    return (struct vec2){b0 * corner[0].x + b1 * corner[1].x + b2 * corner[2].x,
+                         b0 * corner[0].y + b1 * corner[1].y + b2 * corner[2].y};
+}
 
 /* Shading normal before any normal map, made of the geometric one: interpolated for smooth meshes,
  * flipped where asked. */

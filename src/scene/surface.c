@@ -54,10 +54,7 @@ struct vec2 surface_uv(const struct scene *s, const struct surface *surface, con
         return cylinder_uv(&spot.geometry->cylinders.at[prim.index], p);
     if (surface->uvs == NULL)
         return (struct vec2){0, 0};
-    const struct vec2 *uv = surface->uvs + 3 * surface_face(surface, &spot);
-    double b0 = 1 - hit->b1 - hit->b2;
-    return (struct vec2){b0 * uv[0].x + hit->b1 * uv[1].x + hit->b2 * uv[2].x,
-                         b0 * uv[0].y + hit->b1 * uv[1].y + hit->b2 * uv[2].y};
+    return triangle_uv(surface->uvs + 3 * surface_face(surface, &spot), hit->b1, hit->b2);
 }
 
 /* A direction's, which may be no direction at all. */

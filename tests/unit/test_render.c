@@ -3,6 +3,7 @@
 
 #include "unit.h"
 
+#include "image/codec.h"
 #include "render/render.h"
 
 #include <string.h>
@@ -118,9 +119,7 @@ static struct light *add_light(struct scene *s, enum light_kind kind, struct vec
 
 static void add_texture(struct scene *s)
 {
-    struct image *image = mem_zalloc(1, sizeof *image);
-    image->width = image->height = 8;
-    image->data8 = mem_zalloc(3 * 64, 1);
+    struct image *image = image_new(8, 8, 8);
     for (int i = 0; i < 192; i++)
         image->data8[i] = (uint8_t)(i * i * 37);
     vec_push(&s->images, image);

@@ -3,15 +3,13 @@
 
 #include "unit.h"
 
+#include "image/codec.h"
 #include "scene/scene.h"
 
 /* Channel r of texel (i, j), j from the bottom, is 10 j + i. */
 static struct image *numbered(uint32_t width, uint32_t height)
 {
-    struct image *image = mem_zalloc(1, sizeof *image);
-    image->width = width;
-    image->height = height;
-    image->data8 = mem_zalloc((size_t)3 * width, height);
+    struct image *image = image_new(width, height, 8);
     for (uint32_t j = 0; j < height; j++)
         for (uint32_t i = 0; i < width; i++)
             image->data8[3 * ((height - 1 - j) * width + i)] = (uint8_t)(10 * j + i);
