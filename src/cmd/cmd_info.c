@@ -71,20 +71,24 @@ static size_t text_bytes(const struct srcmap *m)
     return sum;
 }
 
+static void count_shapes(const struct geometry *g, size_t counts[INFO_COUNTS])
+{
+    counts[INFO_INSTANCES] += g->instances.n;
+    counts[INFO_SPHERES] += g->spheres.n;
+    counts[INFO_CYLINDERS] += g->cylinders.n;
+    counts[INFO_TRIANGLES] += g->triangles.n;
+    counts[INFO_VERTICES] += g->vertices.n;
+}
+
 struct info_facts info_facts(const struct info *i)
 {
     const struct scene *s = &i->lowered.scene;
     const struct geometry *g = &s->geometry;
     struct info_facts f = {.bounds = geometry_bounds(g), .empty = g->prims.n == 0};
     f.counts[INFO_SURFACES] = i->frontend.desc.surfaces.n;
-    f.counts[INFO_SPHERES] = g->spheres.n;
-    f.counts[INFO_CYLINDERS] = g->cylinders.n;
-    f.counts[INFO_TRIANGLES] = g->triangles.n;
-    f.counts[INFO_VERTICES] = g->vertices.n;
-    for (size_t k = 0; k < g->prototypes.n; k++) {
-        f.counts[INFO_TRIANGLES] += g->prototypes.at[k]->shapes.triangles.n;
-        f.counts[INFO_VERTICES] += g->prototypes.at[k]->shapes.vertices.n;
-    }
+    count_shapes(g, f.counts);
+    for (size_t k = 0; k < g->prototypes.n; k++)
+        count_shapes(&g->prototypes.at[k]->shapes, f.counts);
     f.counts[INFO_LIGHTS] = s->lights.n;
     f.counts[INFO_MATERIALS] = s->materials.n;
     f.counts[INFO_TEXTURES] = s->textures.n;
@@ -226,6 +230,11 @@ static void print_info(const struct info *i)
            schema_model_name(i->frontend.desc.model), c->width, c->height);
     print_place(i, i->frontend.desc.camera->span);
     putchar('\n');
+    if (i->frontend.desc.settings) {
+        fputs("  settings", stdout);
+        print_place(i, i->frontend.desc.settings->span);
+        putchar('\n');
+    }
     print_lights(i);
     print_textures(&i->lowered.scene);
     print_tree(i);
@@ -246,6 +255,8 @@ static void print_pixel(const struct info *i, const struct info_pixel *p)
     printf("pixel %u,%u: ", p->x, p->y);
     if (!p->hit) {
         fputs("nothing\n", stdout);
+        if (p->parallel)
+            print_line("from", p->origin);
         print_line("direction", p->direction);
         return;
     }

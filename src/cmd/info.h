@@ -20,6 +20,7 @@ enum { INFO_LISTED = 100 };
 
 #define INFO_COUNT_LIST(X)                                                \
     X(SURFACES, "surfaces")                                               \
+    X(INSTANCES, "instances")                                             \
     X(SPHERES, "spheres")                                                 \
     X(CYLINDERS, "cylinders")                                             \
     X(TRIANGLES, "triangles") X(VERTICES, "vertices") X(LIGHTS, "lights") \
@@ -77,7 +78,8 @@ void info_files_free(struct info_files *f);
 /* What the ray of a pixel meets first. */
 struct info_pixel {
     uint32_t x, y;
-    struct vec3 direction;
+    struct vec3 origin, direction;
+    bool parallel; /* the origin is not the camera's eye */
     bool hit;
     double distance;
     struct vec3 point, normal;

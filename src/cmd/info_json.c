@@ -133,16 +133,23 @@ json_t *info_json(const struct info *i)
     json_t *camera = object_json(i, d->camera);
     json_object_set_new(camera, "resolution",
                         json_pack("[i, i]", (int)s->camera.width, (int)s->camera.height));
-    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "scene",
-                     i->options->scenes.at[0], "model", schema_model_name(d->model), "camera",
-                     camera, "lights", objects_json(i, d->lights.at, d->lights.n), "textures",
-                     textures_json(s), "tree", tree_json(i), "counts", counts_json(&f), "bounds",
-                     bounds, "memory", memory_json(&f), "files", info_files_json(i));
+    json_t *j = json_pack("{s:s, s:s, s:o}", "scene", i->options->scenes.at[0], "model",
+                          schema_model_name(d->model), "camera", camera);
+    if (d->settings)
+        json_object_set_new(j, "settings", object_json(i, d->settings));
+    json_t *rest = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "lights", objects_json(i, d->lights.at, d->lights.n),
+        "textures", textures_json(s), "tree", tree_json(i), "counts", counts_json(&f), "bounds",
+        bounds, "memory", memory_json(&f), "files", info_files_json(i));
+    json_object_update_missing(j, rest);
+    json_decref(rest);
+    return j;
 }
 
 json_t *info_pixel_json(const struct info *i, const struct info_pixel *p)
 {
     json_t *j = json_pack("{s:[i, i], s:b}", "pixel", (int)p->x, (int)p->y, "hit", (int)p->hit);
+    json_object_set_new(j, "origin", vec3_json(p->origin));
     json_object_set_new(j, "direction", vec3_json(p->direction));
     if (!p->hit)
         return j;

@@ -27,7 +27,12 @@ struct info_pixel info_pixel(const struct info *i)
     struct ray ray = ray_of(&s->camera, i->options, x, y);
     struct ray_frame frame = ray_frame_of(&ray);
     struct hit hit = hit_none(ray.t_max);
-    struct info_pixel p = {.x = x, .y = y, .direction = ray.direction};
+    struct vec3 none = vec3_all(0); /* adding it takes the sign off zeros */
+    struct info_pixel p = {.x = x,
+                           .y = y,
+                           .origin = vec3_add(ray.origin, none),
+                           .direction = vec3_add(ray.direction, none),
+                           .parallel = s->camera.modern && !(s->camera.yfov > 0)};
     for (uint32_t k = 0; k < g->prims.n; k++) /* one ray does not pay for a tree of boxes */
         geometry_intersect(g, k, &ray, &frame, &hit);
     if (hit.prim == PRIM_NONE)
