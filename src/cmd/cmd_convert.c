@@ -116,6 +116,8 @@ static bool write_native(struct conversion *c)
     struct translation t = translation_of(c, &c->frontend);
     if (c->frontend.ast.xml)
         return translate_to_native(&t, &c->text);
+    if (c->options->rebase)
+        return translate_native_moved(&t, &c->text);
     print_scene(&c->frontend.ast, &c->text);
     return true;
 }

@@ -320,3 +320,18 @@ void xml_escape(struct str text, bool quoted, struct buffer *out)
             buffer_add(out, &c, 1);
     }
 }
+
+void native_escape(struct str text, struct buffer *out)
+{
+    for (size_t i = 0; i < text.n; i++) {
+        char c = text.at[i];
+        if (c == '"' || c == '\\')
+            buffer_printf(out, "\\%c", c);
+        else if (c == '\n' || c == '\t')
+            buffer_printf(out, "\\%c", c == '\n' ? 'n' : 't');
+        else if ((unsigned char)c < 32)
+            buffer_printf(out, "\\u{%X}", (unsigned)(unsigned char)c);
+        else
+            buffer_add(out, &c, 1);
+    }
+}

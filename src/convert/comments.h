@@ -41,6 +41,8 @@ void begin_line(struct buffer *out, bool blank);
 
 /* The text as XML spells it in content or in double quotes. */
 void xml_escape(struct str text, bool quoted, struct buffer *out);
+/* The text as the native language spells it in double quotes. */
+void native_escape(struct str text, struct buffer *out);
 /* True when XML can say the text at all. */
 bool xml_can_say(struct str text);
 

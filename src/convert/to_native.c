@@ -194,17 +194,7 @@ static void put_numbers(struct writer *w, struct str text, enum schema_type type
 static void put_string(struct writer *w, struct str text)
 {
     put(w, "\"");
-    for (size_t i = 0; i < text.n; i++) {
-        char c = text.at[i];
-        if (c == '"' || c == '\\')
-            buffer_printf(w->out, "\\%c", c);
-        else if (c == '\n' || c == '\t')
-            buffer_printf(w->out, "\\%c", c == '\n' ? 'n' : 't');
-        else if ((unsigned char)c < 32)
-            buffer_printf(w->out, "\\u{%X}", (unsigned)(unsigned char)c);
-        else
-            buffer_add(w->out, &c, 1);
-    }
+    native_escape(text, w->out);
     put(w, "\"");
 }
 

@@ -49,25 +49,28 @@ static bool lay_out(const struct translation *t, const struct buffer *text, stru
     return right;
 }
 
-static bool translate(const struct translation *t, bool to_xml, struct buffer *out)
+bool translate_to_native(const struct translation *t, struct buffer *out)
 {
     struct buffer text = {0};
-    bool right = true;
-    if (to_xml)
-        right = translate_description(t, &text);
-    else
-        translate_xml(t, &text);
-    right = right && lay_out(t, &text, out);
+    translate_xml(t, &text);
+    bool right = lay_out(t, &text, out);
     buffer_free(&text);
     return right;
 }
 
-bool translate_to_native(const struct translation *t, struct buffer *out)
-{
-    return translate(t, false, out);
-}
-
 bool translate_to_xml(const struct translation *t, struct buffer *out)
 {
-    return translate(t, true, out);
+    struct buffer text = {0};
+    bool right = translate_description(t, &text) && lay_out(t, &text, out);
+    buffer_free(&text);
+    return right;
+}
+
+bool translate_native_moved(const struct translation *t, struct buffer *out)
+{
+    struct buffer text = {0};
+    translate_files(t, &text);
+    bool right = lay_out(t, &text, out);
+    buffer_free(&text);
+    return right;
 }

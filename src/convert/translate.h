@@ -24,4 +24,7 @@ struct translation {
 bool translate_to_native(const struct translation *t, struct buffer *out);
 bool translate_to_xml(const struct translation *t, struct buffer *out);
 
+/* A native scene as it is, but for the names of files, which become relative to `beside`. */
+bool translate_native_moved(const struct translation *t, struct buffer *out);
+
 #endif

@@ -13,8 +13,10 @@ struct str translate_text(const struct translation *t, struct span span);
 struct str translate_file(const struct translation *t, struct str name, uint32_t spelt,
                           struct arena *arena);
 
-/* A text that means the scene in the other format, in no particular layout. */
+/* A text that means the scene in the other format, or with files named from elsewhere, in no
+ * particular layout. */
 void translate_xml(const struct translation *t, struct buffer *out);
+void translate_files(const struct translation *t, struct buffer *out);
 bool translate_description(const struct translation *t, struct buffer *out);
 
 #endif
