@@ -18,13 +18,17 @@ static void list_words(char *out, size_t room, const char *const *words, size_t 
     }
 }
 
+static bool on_later_line(const struct parser *p, struct span found)
+{
+    struct str gap = srcmap_text(p->diag->sources, (struct span){p->previous.end, found.begin});
+    return p->previous.end > p->source->base && gap.n && memchr(gap.at, '\n', gap.n);
+}
+
 /* Where the missing thing belongs: after the previous token, when what was found instead stands
  * on a later line. */
 static struct span place_of_error(const struct parser *p, struct span found)
 {
-    struct str gap = srcmap_text(p->diag->sources, (struct span){p->previous.end, found.begin});
-    bool later = p->previous.end > p->source->base && gap.n && memchr(gap.at, '\n', gap.n);
-    return later ? (struct span){p->previous.end, p->previous.end} : found;
+    return on_later_line(p, found) ? (struct span){p->previous.end, p->previous.end} : found;
 }
 
 /* What may follow any value: expected in so many places that naming it helps nobody. */
@@ -67,19 +71,31 @@ static bool is_keyword(struct str word)
     return false;
 }
 
+/* A value or a name, as far as its first character tells. */
+static bool begins_item(struct str found)
+{
+    return found.n &&
+           (strchr("([\"#_", found.at[0]) || (found.at[0] >= '0' && found.at[0] <= '9') ||
+            ((found.at[0] | 32) >= 'a' && (found.at[0] | 32) <= 'z'));
+}
+
 /* How to write what was probably meant. */
-static void add_advice(const struct parser *p, struct diag_entry *e, struct str found, bool at_end,
+static void add_advice(const struct parser *p, struct diag_entry *e, struct span span, bool at_end,
                        const char *const *expected, size_t n)
 {
-    bool colon = false, name = false;
+    struct str found = srcmap_text(p->diag->sources, span);
+    bool colon = false, name = false, comma = false;
     for (size_t i = 0; i < n; i++) {
         colon |= strcmp(expected[i], "':'") == 0;
         name |= strcmp(expected[i], "name") == 0;
+        comma |= strcmp(expected[i], "','") == 0;
     }
     if (at_end && p->depth > 0)
         diag_label(e, p->brackets[p->depth - 1], "this is not closed");
     else if (colon && str_is(found, "="))
         diag_note(e, "a property is written 'name: value'");
+    else if (comma && begins_item(found) && !on_later_line(p, span))
+        diag_note(e, "commas stand between the items of lists, vectors and calls");
     else if (name && is_keyword(found))
         diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
 }
@@ -105,7 +121,7 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
         n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
-    add_advice(p, e, text, at_end, shown, n);
+    add_advice(p, e, span, at_end, shown, n);
 }
 
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
