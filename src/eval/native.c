@@ -18,13 +18,26 @@ static void eval_let(struct eval *e, const struct ast_node *node)
     bind_value(e, node, &v);
 }
 
+/* What -D gives.  A word that means nothing is a text, where the scene's own value is one. */
+static struct value eval_define_value(struct eval *e, const struct ast_node *given,
+                                      const struct value *own)
+{
+    bool word = given->kind == AST_NAME && own->type == VALUE_STRING && !scope_find(e, given->name);
+    if (!word)
+        return eval_value(e, given);
+    return (struct value){.type = VALUE_STRING,
+                          .span = given->span,
+                          .string = given->name,
+                          .spelt = given->span.begin};
+}
+
 static void eval_param(struct eval *e, const struct ast_node *node)
 {
     struct value v = eval_value(e, node->children);
     for (size_t i = 0; i < e->options->define_count; i++) {
         if (!str_equal(e->options->defines[i].name, node->name))
             continue;
-        v = eval_value(e, e->options->defines[i].value);
+        v = eval_define_value(e, e->options->defines[i].value, &v);
         e->define_used[i] = true;
     }
     bind_value(e, node, &v);
