@@ -6,10 +6,9 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { SAMPLES_LIMIT = 1024, DEPTH_LIMIT = 1000, THREADS_LIMIT = 1024 };
 
 enum opt {
 #define OPT(id, ...) OPT_##id,
@@ -18,15 +17,15 @@ enum opt {
     OPTS
 };
 
-static const struct opt_row {
+struct opt_row {
     char letter;
     const char *name, *argument;
     unsigned commands;
+    /* Takes the argument, NULL where none is given; false after saying what is wrong with it. */
+    bool (*take)(const struct opt_row *row, const char *argument, struct options *out);
+    size_t member;        /* of struct options: the offset of what is set */
+    uint32_t least, most; /* of a number */
     const char *help;
-} rows[OPTS] = {
-#define OPT(id, letter, name, argument, commands, help) {letter, name, argument, commands, help},
-#include "cmd/opts.def"
-#undef OPT
 };
 
 int usage_error(const char *format, ...)
@@ -38,11 +37,6 @@ int usage_error(const char *format, ...)
     fputs("\n", stderr);
     va_end(args);
     return EXIT_USAGE;
-}
-
-static bool optional_argument(enum opt o)
-{
-    return rows[o].argument && rows[o].argument[0] == '[';
 }
 
 /* ---- arguments of options ---- */
@@ -58,20 +52,51 @@ static bool read_whole(const char *text, uint64_t least, uint64_t most, uint64_t
     return *end == 0 && errno == 0 && x >= least && x <= most;
 }
 
-static bool take_whole(enum opt o, const char *text, uint64_t least, uint64_t most, uint64_t *out)
+static bool take_between(const struct opt_row *row, const char *text, uint64_t least, uint64_t most,
+                         uint64_t *out)
 {
     if (read_whole(text, least, most, out))
         return true;
-    usage_error("--%s takes a whole number from %llu to %llu, not '%s'", rows[o].name,
+    usage_error("--%s takes a whole number from %llu to %llu, not '%s'", row->name,
                 (unsigned long long)least, (unsigned long long)most, text);
     return false;
 }
 
-static bool take_u32(enum opt o, const char *text, uint32_t least, uint32_t most, uint32_t *out)
+static void *member_of(const struct opt_row *row, struct options *out)
+{
+    return (char *)out + row->member;
+}
+
+static bool take_flag(const struct opt_row *row, const char *text, struct options *out)
+{
+    (void)text;
+    return *(bool *)member_of(row, out) = true;
+}
+
+static bool take_text(const struct opt_row *row, const char *text, struct options *out)
+{
+    *(const char **)member_of(row, out) = text;
+    return true;
+}
+
+static bool take_whole(const struct opt_row *row, const char *text, struct options *out)
 {
     uint64_t x = 0;
-    bool right = take_whole(o, text, least, most, &x);
-    *out = (uint32_t)x;
+    bool right = take_between(row, text, row->least, row->most, &x);
+    *(uint32_t *)member_of(row, out) = (uint32_t)x;
+    return right;
+}
+
+static bool take_seed(const struct opt_row *row, const char *text, struct options *out)
+{
+    return take_between(row, text, 0, UINT64_MAX, &out->seed);
+}
+
+static bool take_max_objects(const struct opt_row *row, const char *text, struct options *out)
+{
+    uint64_t x = 0;
+    bool right = take_between(row, text, 1, UINT32_MAX, &x);
+    out->max_objects = (size_t)x;
     return right;
 }
 
@@ -91,11 +116,11 @@ static bool read_list(const char *text, char separator, unsigned n, uint32_t *ou
     return true;
 }
 
-static bool take_res(const char *text, struct options *out)
+static bool take_res(const struct opt_row *row, const char *text, struct options *out)
 {
     uint32_t size[2];
     if (!read_list(text, 'x', 2, size)) {
-        usage_error("--res takes WIDTHxHEIGHT, as in 640x480, not '%s'", text);
+        usage_error("--%s takes WIDTHxHEIGHT, as in 640x480, not '%s'", row->name, text);
         return false;
     }
     if (!image_size_allowed(size[0], size[1])) {
@@ -108,27 +133,27 @@ static bool take_res(const char *text, struct options *out)
     return true;
 }
 
-static bool take_crop(const char *text, struct options *out)
+static bool take_crop(const struct opt_row *row, const char *text, struct options *out)
 {
     uint32_t *c = out->crop;
     if (!read_list(text, ',', 4, c) || c[0] >= c[2] || c[1] >= c[3]) {
-        usage_error("--crop takes X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, not '%s'", text);
+        usage_error("--%s takes X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, not '%s'", row->name, text);
         return false;
     }
     return out->cropped = true;
 }
 
-static bool take_pixel(const char *text, struct options *out)
+static bool take_pixel(const struct opt_row *row, const char *text, struct options *out)
 {
     if (!read_list(text, ',', 2, out->pixel)) {
-        usage_error("--pixel takes X,Y, not '%s'", text);
+        usage_error("--%s takes X,Y, not '%s'", row->name, text);
         return false;
     }
     return out->behind = true;
 }
 
 /* The number of a word in a list that ends with NULL; -1 after reporting another. */
-static int take_word(enum opt o, const char *text, const char *const *words)
+static int take_word(const struct opt_row *row, const char *text, const char *const *words)
 {
     struct str_nearest nearest = str_nearest_to(str_of(text));
     char list[128] = "";
@@ -144,51 +169,51 @@ static int take_word(enum opt o, const char *text, const char *const *words)
     }
     struct str meant = str_nearest_found(&nearest);
     if (meant.n)
-        usage_error("--%s takes %s, not '%s'; did you mean '%.*s'?", rows[o].name, list, text,
+        usage_error("--%s takes %s, not '%s'; did you mean '%.*s'?", row->name, list, text,
                     STR_ARG(meant));
     else
-        usage_error("--%s takes %s, not '%s'", rows[o].name, list, text);
+        usage_error("--%s takes %s, not '%s'", row->name, list, text);
     return -1;
 }
 
-static bool take_show(const char *text, struct options *out)
+static bool take_show(const struct opt_row *row, const char *text, struct options *out)
 {
     static const char *const words[] = {"normals", "depth", "ids", NULL};
     static const enum render_show shows[] = {SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS};
-    int i = take_word(OPT_SHOW, text, words);
+    int i = take_word(row, text, words);
     out->show = i >= 0 ? shows[i] : SHOW_PICTURE;
     return i >= 0;
 }
 
-static bool take_format(const char *text, struct options *out)
+static bool take_format(const struct opt_row *row, const char *text, struct options *out)
 {
     static const char *const words[] = {"text", "json", NULL};
     static const enum diag_format formats[] = {DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON};
-    int i = take_word(OPT_FORMAT, text, words);
+    int i = take_word(row, text, words);
     out->format = formats[i > 0];
     return i >= 0;
 }
 
-static bool take_stats(const char *text, struct options *out)
+static bool take_stats(const struct opt_row *row, const char *text, struct options *out)
 {
     static const char *const words[] = {"json", NULL};
     out->stats = text ? STATS_JSON : STATS_TEXT;
-    return !text || take_word(OPT_STATS, text, words) >= 0;
+    return !text || take_word(row, text, words) >= 0;
 }
 
-static bool take_accel(const char *text, struct options *out)
+static bool take_accel(const struct opt_row *row, const char *text, struct options *out)
 {
     static const char *const words[] = {"none", NULL};
     out->brute_force = true;
-    return take_word(OPT_ACCEL, text, words) >= 0;
+    return take_word(row, text, words) >= 0;
 }
 
-static bool take_isa(const char *text, struct options *out)
+static bool take_isa(const struct opt_row *row, const char *text, struct options *out)
 {
     const char *words[ISA_COUNT + 1] = {NULL};
     for (int i = 0; i < ISA_COUNT; i++)
         words[i] = isa_name((enum isa)i);
-    int i = take_word(OPT_ISA, text, words);
+    int i = take_word(row, text, words);
     if (i < 0)
         return false;
     out->isa = (enum isa)i;
@@ -197,95 +222,46 @@ static bool take_isa(const char *text, struct options *out)
     return isa_available(out->isa);
 }
 
-static bool take_define(const char *text, struct options *out)
+static bool take_define(const struct opt_row *row, const char *text, struct options *out)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text) {
-        usage_error("--define takes NAME=VALUE, not '%s'", text);
+        usage_error("--%s takes NAME=VALUE, not '%s'", row->name, text);
         return false;
     }
     vec_push(&out->defines, text);
     return true;
 }
 
-/* `argument` is NULL where none is given. */
-static bool take(enum opt o, const char *argument, struct options *out)
+static bool take_include(const struct opt_row *row, const char *text, struct options *out)
 {
-    const char *text = argument ? argument : "";
-    uint64_t whole = 0;
-    switch (o) {
-    case OPT_OUTPUT:
-        out->output = text;
-        return true;
-    case OPT_TO:
-        out->to = text;
-        return true;
-    case OPT_SAMPLES:
-        return take_u32(o, text, 1, SAMPLES_LIMIT, &out->grid);
-    case OPT_THREADS:
-        return take_u32(o, text, 1, THREADS_LIMIT, &out->threads);
-    case OPT_DEPTH:
-        return take_u32(o, text, 0, DEPTH_LIMIT, &out->depth);
-    case OPT_SEED:
-        return take_whole(o, text, 0, UINT64_MAX, &out->seed);
-    case OPT_MAX_OBJECTS:
-        if (!take_whole(o, text, 1, UINT32_MAX, &whole))
-            return false;
-        out->max_objects = (size_t)whole;
-        return true;
-    case OPT_RES:
-        return take_res(text, out);
-    case OPT_CROP:
-        return take_crop(text, out);
-    case OPT_SHOW:
-        return take_show(text, out);
-    case OPT_ACCEL:
-        return take_accel(text, out);
-    case OPT_ISA:
-        return take_isa(text, out);
-    case OPT_DEFINE:
-        return take_define(text, out);
-    case OPT_INCLUDE:
-        vec_push(&out->folders, text);
-        return true;
-    case OPT_STATS:
-        return take_stats(argument, out);
-    case OPT_FORMAT:
-        return take_format(text, out);
-    case OPT_EXPAND:
-        return out->expand = true;
-    case OPT_REBASE:
-        return out->rebase = true;
-    case OPT_NO_VERIFY:
-        return out->no_verify = true;
-    case OPT_IN_PLACE:
-        return out->in_place = true;
-    case OPT_CHECK:
-        return out->check = true;
-    case OPT_DIFF:
-        return out->difference = true;
-    case OPT_JITTER:
-        return out->jitter = true;
-    case OPT_NO_SKIP:
-        return out->no_skip = true;
-    case OPT_QUIET:
-        return out->quiet = true;
-    case OPT_VERBOSE:
-        return out->verbose = true;
-    case OPT_JSON:
-        return out->json = true;
-    case OPT_DEPS:
-        return out->deps = true;
-    case OPT_PIXEL:
-        return take_pixel(text, out);
-    case OPT_MAN:
-        return out->manual = true;
-    case OPT_HELP:
-    case OPT_VERSION:
-    case OPTS:
-        break;
-    }
+    (void)row;
+    vec_push(&out->folders, text);
     return true;
+}
+
+/* ---- the options ---- */
+
+static const struct opt_row rows[OPTS] = {
+#define FLAG(name) take_flag, offsetof(struct options, name), 0, 0
+#define TEXT(name) take_text, offsetof(struct options, name), 0, 0
+#define WHOLE(name, least, most) take_whole, offsetof(struct options, name), least, most
+#define OWN(function) function, 0, 0, 0
+#define ENDS NULL, 0, 0, 0 /* the command line: nothing behind it is read */
+#define OPT(id, letter, name, argument, commands, taken, help) \
+    {letter, name, argument, commands, taken, help},
+#include "cmd/opts.def"
+#undef OPT
+#undef FLAG
+#undef TEXT
+#undef WHOLE
+#undef OWN
+#undef ENDS
+};
+
+static bool optional_argument(enum opt o)
+{
+    return rows[o].argument && rows[o].argument[0] == '[';
 }
 
 /* ---- the command line ---- */
@@ -387,7 +363,7 @@ static bool accept(const struct given *g, const char *word, unsigned command, st
         usage_error("'--%s' is no option of this command", row->name);
         return false;
     }
-    return take(g->opt, g->argument, out);
+    return row->take(row, g->argument, out);
 }
 
 enum options_result options_read(int argc, char **argv, unsigned command, struct options *out)
