@@ -5,25 +5,32 @@
 set -u
 cd "${srcdir:-$(dirname "$0")/..}" || exit 1
 manual=man/wrt.5
-begin='^\.\\" BEGIN PROPERTIES'
-end='^\.\\" END PROPERTIES'
-
 work=$(mktemp -d "${TMPDIR:-/tmp}/wrt-manual.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
-"${WRT:-build/wrt}" doc --man >"$work/tables" || exit 1
-if [ "$(grep -cE "$begin|$end" $manual)" != 2 ]; then
-    echo "manual: $manual lacks the marks around its tables"
-    exit 1
-fi
+# insert NAME COMMAND...: between the marks of that name, what the command prints.
+insert()
 {
-    sed "/$begin/q" $manual
-    cat "$work/tables"
-    sed -n "/$end/,\$p" $manual
-} >"$work/wanted"
+    begin='^\.\\" BEGIN '$1 end='^\.\\" END '$1
+    shift
+    "$@" >"$work/part" || exit 1
+    if [ "$(grep -cE "$begin|$end" "$work/wanted")" != 2 ]; then
+        echo "manual: $manual lacks marks: $begin"
+        exit 1
+    fi
+    {
+        sed "/$begin/q" "$work/wanted"
+        cat "$work/part"
+        sed -n "/$end/,\$p" "$work/wanted"
+    } >"$work/next"
+    mv "$work/next" "$work/wanted"
+}
+cp $manual "$work/wanted"
+insert PROPERTIES "${WRT:-build/wrt}" doc --man
+insert DIAGNOSTICS "${WRT:-build/wrt}" explain --man
 if [ "${1-}" = --update ]; then
     cmp -s "$work/wanted" $manual || cp "$work/wanted" $manual
 elif ! diff -u $manual "$work/wanted"; then
-    echo "manual: $manual is older than the schema: run 'make update-docs'"
+    echo "manual: $manual is older than the tables: run 'make update-docs'"
     exit 1
 fi
 

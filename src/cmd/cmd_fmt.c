@@ -52,7 +52,7 @@ static int format_scene(const char *path, const struct options *o)
     struct frontend f;
     struct buffer text = {0};
     int status = 0;
-    if (frontend_parse(&f, path)) {
+    if (frontend_parse(&f, path, o)) {
         print_scene(&f.ast, &text);
         status = deliver(&f, path, (struct str){text.at, text.n}, o);
     }

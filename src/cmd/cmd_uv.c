@@ -26,7 +26,7 @@ int command_uv(const struct options *o)
         return o->scenes.n ? usage_error("uv takes one file, but %zu are given", o->scenes.n)
                            : usage_error("uv: no file given");
     struct frontend f;
-    frontend_init(&f);
+    frontend_init(&f, o);
     convert(&f, o->scenes.at[0], o->output ? o->output : "-");
     int status = frontend_report(&f, o, DIAG_WARNING);
     frontend_free(&f);

@@ -17,10 +17,11 @@ static const char *display_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
-void frontend_init(struct frontend *f)
+void frontend_init(struct frontend *f, const struct options *o)
 {
     *f = (struct frontend){0};
     diag_init(&f->diag, &f->sources);
+    f->diag.policy = &o->policy;
 }
 
 const struct source *frontend_read(struct frontend *f, const char *path)
@@ -81,9 +82,9 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
     free(defines);
 }
 
-bool frontend_parse(struct frontend *f, const char *path)
+bool frontend_parse(struct frontend *f, const char *path, const struct options *o)
 {
-    frontend_init(f);
+    frontend_init(f, o);
     const struct source *s =
         syntax_load(&f->sources, path, DIAG_CANNOT_READ, (struct span){0}, &f->diag);
     return s && syntax_parse(s, &f->ast, &f->diag);
@@ -93,7 +94,7 @@ bool frontend_load_text(struct frontend *f, const char *path, struct str text,
                         const struct options *o)
 {
     char *copy = mem_alloc(text.n + 2, 1);
-    frontend_init(f);
+    frontend_init(f, o);
     memcpy(copy, text.at, text.n);
     const struct source *s = srcmap_add(&f->sources, path, copy, text.n);
     if (!s)
@@ -106,7 +107,7 @@ bool frontend_load_text(struct frontend *f, const char *path, struct str text,
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)
 {
     double start = thread_seconds();
-    bool parsed = frontend_parse(f, path);
+    bool parsed = frontend_parse(f, path, o);
     if (may_evaluate(f, parsed))
         evaluate(f, o, parsed);
     f->seconds = thread_seconds() - start;
@@ -131,13 +132,13 @@ int status_worse(int a, int b)
 
 int frontend_report(struct frontend *f, const struct options *o, enum diag_level least)
 {
-    bool json = o->format == DIAG_FORMAT_JSON;
+    bool text = o->format == DIAG_FORMAT_TEXT;
     const char *no_color = getenv("NO_COLOR");
     struct diag_print_options print = {
         .format = o->format,
-        .colour = !json && isatty(STDERR_FILENO) && !(no_color && *no_color),
+        .colour = text && isatty(STDERR_FILENO) && !(no_color && *no_color),
         .least = least,
     };
-    diag_print(&f->diag, &print, json ? stdout : stderr);
+    diag_print(&f->diag, &print, text ? stderr : stdout);
     return (int)f->diag.exit;
 }

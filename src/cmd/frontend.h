@@ -16,21 +16,21 @@ struct frontend {
     double seconds;
 };
 
-void frontend_init(struct frontend *f);
+void frontend_init(struct frontend *f, const struct options *options);
 
 /* A file that is no scene as a source, byte by byte; NULL after reporting. */
 const struct source *frontend_read(struct frontend *f, const char *path);
 
 /* Initialises f and reads the scene's text into f->ast; true when it has no syntax errors. */
-bool frontend_parse(struct frontend *f, const char *path);
+bool frontend_parse(struct frontend *f, const char *path, const struct options *options);
 
 /* As frontend_load with a text that was not read from a file; files it names are looked up beside
  * `path`. */
 bool frontend_load_text(struct frontend *f, const char *path, struct str text,
                         const struct options *options);
 
-/* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag; free with
- * frontend_free in any case. */
+/* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag;
+ * free with frontend_free in any case. */
 bool frontend_load(struct frontend *f, const char *path, const struct options *options);
 void frontend_free(struct frontend *f);
 

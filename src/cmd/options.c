@@ -187,10 +187,11 @@ static bool take_show(const struct opt_row *row, const char *text, struct option
 
 static bool take_format(const struct opt_row *row, const char *text, struct options *out)
 {
-    static const char *const words[] = {"text", "json", NULL};
-    static const enum diag_format formats[] = {DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON};
+    static const char *const words[] = {"text", "json", "sarif", NULL};
+    static const enum diag_format formats[] = {DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON,
+                                               DIAG_FORMAT_SARIF};
     int i = take_word(row, text, words);
-    out->format = formats[i > 0];
+    out->format = formats[i > 0 ? i : 0];
     return i >= 0;
 }
 
@@ -199,6 +200,47 @@ static bool take_stats(const struct opt_row *row, const char *text, struct optio
     static const char *const words[] = {"json", NULL};
     out->stats = text ? STATS_JSON : STATS_TEXT;
     return !text || take_word(row, text, words) >= 0;
+}
+
+static bool take_fix(const struct opt_row *row, const char *text, struct options *out)
+{
+    static const char *const words[] = {"all", NULL};
+    out->fix = text ? FIX_ALL : FIX_SAFE;
+    return !text || take_word(row, text, words) >= 0;
+}
+
+/* Sets what becomes of a rule, or of the rules of a group. */
+static bool set_rule(const struct opt_row *row, const char *name, enum diag_setting setting,
+                     struct options *out)
+{
+    struct diag_selection which;
+    if (diag_select(str_of(name), &which)) {
+        diag_policy_set(&out->policy, &which, setting);
+        return true;
+    }
+    struct str meant = diag_nearest_name(str_of(name));
+    if (meant.n)
+        usage_error("--%s: no rule is called '%s'; did you mean '%.*s'?", row->name, name,
+                    STR_ARG(meant));
+    else
+        usage_error("--%s: no rule is called '%s'; 'wrt lint --list' names them", row->name, name);
+    return false;
+}
+
+/* NAME, error, or error=NAME */
+static bool take_warn(const struct opt_row *row, const char *text, struct options *out)
+{
+    static const char error[] = "error=";
+    if (strcmp(text, "error") == 0)
+        return out->policy.warnings_are_errors = true;
+    if (strncmp(text, error, strlen(error)) == 0)
+        return set_rule(row, text + strlen(error), DIAG_AS_ERROR, out);
+    return set_rule(row, text, DIAG_ON, out);
+}
+
+static bool take_no_warn(const struct opt_row *row, const char *text, struct options *out)
+{
+    return set_rule(row, text, DIAG_OFF, out);
 }
 
 static bool take_accel(const struct opt_row *row, const char *text, struct options *out)

@@ -19,15 +19,18 @@ enum {
     FOR_DIFF = 32,
     FOR_CONVERT = 64,
     FOR_INFO = 128,
-    FOR_ALL = 255
+    FOR_LINT = 256,
+    FOR_EXPLAIN = 512,
+    FOR_ALL = 1023
 };
 
 /* Those that read a scene, and those that report on what they read. */
 enum {
-    FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_DIFF | FOR_CONVERT | FOR_INFO,
+    FOR_SCENES = FOR_RENDER | FOR_CHECK | FOR_LINT | FOR_DIFF | FOR_CONVERT | FOR_INFO,
     FOR_INPUT = FOR_SCENES | FOR_UV | FOR_FMT
 };
 
+enum fix_mode { FIX_NOTHING, FIX_SAFE, FIX_ALL };
 enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
 struct options {
@@ -48,6 +51,9 @@ struct options {
     enum isa isa;
     enum stats_format stats;
     enum diag_format format;
+    struct diag_policy policy; /* of warnings */
+    enum fix_mode fix;
+    bool list;
     bool expand, rebase, no_verify;
     bool in_place, check, difference;
     bool jitter, brute_force, no_skip, quiet, verbose;

@@ -1,6 +1,6 @@
 #include "config.h"
 
-#include "diag/diag.h"
+#include "diag/policy.h"
 
 #include "base/str.h"
 
@@ -9,8 +9,15 @@
 
 enum { FIX_LIMIT = 1000 }; /* bytes: longer replacements help nobody */
 
+const struct diag_group_row diag_groups[DIAG_GROUPS] = {
+#define GROUP(id, name, summary) [DIAG_##id] = {name, summary},
+#include "diag/groups.def"
+#undef GROUP
+};
+
 const struct diag_rule diag_rules[DIAG_CODES] = {
-#define DIAG(id, code, slug, level, exit, summary) [DIAG_##id] = {code, slug, summary, level, exit},
+#define DIAG(id, code, slug, group, level, exit, summary) \
+    [DIAG_##id] = {code, slug, summary, DIAG_##group, level, exit},
 #include "diag/diag.def"
 #undef DIAG
 };
@@ -34,7 +41,9 @@ void diag_free(struct diag *d)
         entry_free(d->entries.at[i]);
     entry_free(&d->spare);
     vec_free(&d->entries);
+    vec_free(&d->allows);
     map_free(&d->framed);
+    map_free(&d->crowds);
     arena_free(&d->arena);
 }
 
@@ -76,25 +85,36 @@ static const char *format_text(struct diag *d, const char *format, va_list args)
     return kept;
 }
 
-/* An entry beyond the limit is counted, not kept: its details go where nobody reads them. */
-static struct diag_entry *take_entry(struct diag *d)
+/* An entry whose details go where nobody reads them. */
+static struct diag_entry *spare_entry(struct diag *d)
 {
-    if (d->entries.n < DIAG_LIMIT) {
-        struct diag_entry *e = arena_zalloc(&d->arena, 1, sizeof *e);
-        vec_push(&d->entries, e);
-        return e;
-    }
-    d->dropped++;
     entry_free(&d->spare);
+    d->spare = (struct diag_entry){.owner = d};
     return &d->spare;
 }
 
-static void count(struct diag *d, const struct diag_rule *rule)
+/* An entry beyond the limit is counted, not kept.  Warnings never take the place of errors. */
+static struct diag_entry *take_entry(struct diag *d, enum diag_level level)
 {
-    d->errors += rule->level == DIAG_ERROR;
-    d->warnings += rule->level == DIAG_WARNING;
-    if (rule->exit == DIAG_EXIT_INPUT || (rule->exit == DIAG_EXIT_RESOURCE && !d->exit))
-        d->exit = rule->exit;
+    size_t *kept = &d->kept[level != DIAG_ERROR];
+    if (*kept == DIAG_LIMIT) {
+        d->dropped += level == DIAG_ERROR;
+        return spare_entry(d);
+    }
+    ++*kept;
+    struct diag_entry *e = arena_zalloc(&d->arena, 1, sizeof *e);
+    vec_push(&d->entries, e);
+    return e;
+}
+
+static void count(struct diag *d, enum diag_level level, enum diag_exit status)
+{
+    d->errors += level == DIAG_ERROR;
+    d->warnings += level == DIAG_WARNING;
+    if (level == DIAG_ERROR && status == DIAG_EXIT_OK)
+        status = DIAG_EXIT_INPUT;
+    if (status == DIAG_EXIT_INPUT || (status == DIAG_EXIT_RESOURCE && !d->exit))
+        d->exit = status;
 }
 
 /* Code, place and way to it (0: any) as a key; they have no padding. */
@@ -142,21 +162,24 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
                                const char *format, ...)
 {
     struct key key = {0, span, code};
-    count(d, &diag_rules[code]);
+    enum diag_level level;
+    if (!diag_level_here(d, code, span, &level))
+        return spare_entry(d);
+    count(d, level, diag_rules[code].exit);
     struct diag_entry *first = find_repeated(d, &key);
-    if (first) { /* counted; its details go where nobody reads them */
+    if (first) {
         first->repeats++;
-        entry_free(&d->spare);
-        d->spare = (struct diag_entry){.owner = d};
-        return &d->spare;
+        return spare_entry(d);
     }
-    struct diag_entry *e = take_entry(d);
+    if (level != DIAG_ERROR && diag_is_crowded(d, code, span))
+        return spare_entry(d);
+    struct diag_entry *e = take_entry(d, level);
     va_list args;
     va_start(args, format);
     const char *message = e == &d->spare ? "" : format_text(d, format, args);
     va_end(args);
     *e = (struct diag_entry){.code = code,
-                             .level = diag_rules[code].level,
+                             .level = level,
                              .span = span,
                              .message = message,
                              .owner = d,

@@ -23,18 +23,84 @@ enum diag_level { DIAG_NOTE, DIAG_WARNING, DIAG_ERROR };
 enum diag_exit { DIAG_EXIT_OK = 0, DIAG_EXIT_INPUT = 1, DIAG_EXIT_RESOURCE = 3 };
 
 enum diag_code {
-#define DIAG(id, code, slug, level, exit, summary) DIAG_##id,
+#define DIAG(id, code, slug, group, level, exit, summary) DIAG_##id,
 #include "diag/diag.def"
 #undef DIAG
     DIAG_CODES
 };
 
+/* Rules that are switched on and off together.  What is in none is always on. */
+enum diag_group {
+#define GROUP(id, name, summary) DIAG_##id,
+#include "diag/groups.def"
+#undef GROUP
+    DIAG_GROUPS
+};
+
+struct diag_group_row {
+    const char *name, *summary;
+};
+extern const struct diag_group_row diag_groups[DIAG_GROUPS];
+
 struct diag_rule {
     const char *code, *slug, *summary;
+    enum diag_group group;
     enum diag_level level;
     enum diag_exit exit;
 };
 extern const struct diag_rule diag_rules[DIAG_CODES];
+
+/* Notes that are off unless asked for: those of a group. */
+static inline bool diag_is_optional(enum diag_code code)
+{
+    return diag_rules[code].level == DIAG_NOTE && diag_rules[code].group != DIAG_NONE;
+}
+
+/* What only `wrt lint` looks for. */
+static inline bool diag_is_lint(enum diag_code code)
+{
+    return diag_rules[code].code[1] >= '5';
+}
+
+/* What a name stands for: a code, a slug, "E102-unknown-property", a group, or "all". */
+struct diag_selection {
+    bool has[DIAG_CODES];
+};
+
+/* False when nothing is called so. */
+bool diag_select(struct str name, struct diag_selection *out);
+/* The nearest of the names that diag_select knows, or empty. */
+struct str diag_nearest_name(struct str name);
+
+/* What becomes of warnings and notes.  Errors stay errors. */
+enum diag_setting { DIAG_AS_USUAL, DIAG_OFF, DIAG_ON, DIAG_AS_ERROR };
+
+struct diag_policy {
+    uint8_t of[DIAG_CODES]; /* enum diag_setting */
+    bool warnings_are_errors;
+    bool lint; /* what only `wrt lint` looks for is told, too */
+};
+
+void diag_policy_set(struct diag_policy *p, const struct diag_selection *which,
+                     enum diag_setting setting);
+
+/* A comment of the text that silences rules. */
+struct diag_allow {
+    struct span where; /* what it covers; {0, 0}: nothing */
+    struct span name;  /* of the rule in the comment */
+    struct diag_selection selection;
+    bool used;
+};
+
+/* Findings of one rule in one file that are told; further ones are counted. */
+enum { DIAG_RULE_LIMIT = 20 };
+
+struct diag_crowd {
+    struct diag_crowd *next;
+    const struct source *source;
+    enum diag_code code;
+    size_t n;
+};
 
 enum diag_fix_kind { DIAG_FIX_SAFE, DIAG_FIX_MAYBE };
 
@@ -81,7 +147,7 @@ struct diag_entry {
     size_t order; /* of report, to keep sorting stable */
 };
 
-/* Entries kept; further ones are counted only. */
+/* Errors kept; further ones are counted only.  Likewise of warnings and notes together. */
 enum { DIAG_LIMIT = 1000 };
 
 struct diag {
@@ -90,10 +156,15 @@ struct diag {
     const struct diag_frame *frame; /* borrowed: set by whoever evaluates, kept in words */
     VEC(struct diag_entry *) entries;
     struct map framed; /* code, place and way to it to the first entry found there inside a frame */
-    size_t dropped;
-    size_t errors, warnings; /* all, dropped ones too */
-    enum diag_exit exit;     /* what the errors so far ask for: INPUT wins over RESOURCE */
-    struct diag_entry spare; /* takes what is dropped */
+    const struct diag_policy *policy; /* borrowed; NULL: everything as usual */
+    VEC(struct diag_allow) allows;    /* in the order of what they cover, for each text */
+    struct map crowds;                /* rule and file to how many there are */
+    struct diag_crowd *crowded;       /* the same as a list, the last one first */
+    size_t kept[2];                   /* entries: errors, others */
+    size_t dropped;                   /* errors */
+    size_t errors, warnings;          /* all, dropped ones too */
+    enum diag_exit exit;              /* what the errors so far ask for: INPUT wins over RESOURCE */
+    struct diag_entry spare;          /* takes what is dropped */
 };
 
 void diag_init(struct diag *d, const struct srcmap *sources);
@@ -111,7 +182,15 @@ void diag_note(struct diag_entry *e, const char *format, ...) __attribute__((for
 void diag_fix(struct diag_entry *e, struct span span, enum diag_fix_kind kind, const char *format,
               ...) __attribute__((format(printf, 4, 5)));
 
-/* True when further entries would only be counted: looking for more is of no use. */
+/* Whether findings of this rule are told at all: finding them may cost much. */
+bool diag_wants(const struct diag *d, enum diag_code code);
+
+/* A comment that silences the rules called `name` (a span in a text) within `where`. */
+void diag_allow(struct diag *d, struct span where, struct span name);
+/* Reports the comments that silenced nothing so far. */
+void diag_report_unused_allows(struct diag *d);
+
+/* True when further errors would only be counted: looking for more is of no use. */
 static inline bool diag_full(const struct diag *d)
 {
     return d->dropped > 0;
@@ -128,7 +207,7 @@ void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant)
 /* Sorts by place: entries without one first, then by source and offset. */
 void diag_sort(struct diag *d);
 
-enum diag_format { DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON };
+enum diag_format { DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON, DIAG_FORMAT_SARIF };
 
 struct diag_print_options {
     enum diag_format format;

@@ -9,18 +9,39 @@ const char *diag_level_name(enum diag_level level)
     return names[level];
 }
 
+bool diag_is_shown(const struct diag_entry *e, enum diag_level least)
+{
+    return e->level >= least || (least < DIAG_ERROR && diag_is_optional(e->code));
+}
+
+/* What was counted only. */
+static void print_crowds(const struct diag *d, const struct diag_print_options *o, FILE *out)
+{
+    for (const struct diag_crowd *c = d->crowded; c; c = c->next)
+        if (c->n > DIAG_RULE_LIMIT && diag_rules[c->code].level >= o->least)
+            fprintf(out, "%s: note: %zu more findings of '%s'\n",
+                    c->source ? c->source->name : "wrt", c->n - DIAG_RULE_LIMIT,
+                    diag_rules[c->code].slug);
+    if (d->dropped)
+        fprintf(out, "wrt: note: there are more findings than the %d shown\n", DIAG_LIMIT);
+}
+
 void diag_print(struct diag *d, const struct diag_print_options *o, FILE *out)
 {
     diag_sort(d);
+    if (o->format == DIAG_FORMAT_SARIF) {
+        diag_print_sarif(d, o->least, out);
+        return;
+    }
     for (size_t i = 0; i < d->entries.n; i++) {
         const struct diag_entry *e = d->entries.at[i];
-        if (e->level < o->least)
+        if (!diag_is_shown(e, o->least))
             continue;
         if (o->format == DIAG_FORMAT_JSON)
             diag_print_json(d, e, out);
         else
             diag_print_text(d, e, o->colour, out);
     }
-    if (d->dropped && o->format == DIAG_FORMAT_TEXT)
-        fprintf(out, "wrt: note: there are more findings than the %d shown\n", DIAG_LIMIT);
+    if (o->format == DIAG_FORMAT_TEXT)
+        print_crowds(d, o, out);
 }

@@ -3,6 +3,7 @@
 
 #include "syntax/syntax.h"
 
+#include "syntax/allow.h"
 #include "syntax/parser.h"
 
 #include "grammar/scene.tab.h"
@@ -56,6 +57,7 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
                     "the file is empty, so there is no scene");
     else
         run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, out, diag);
+    syntax_find_allows(out, diag);
     return diag->errors == errors;
 }
 

@@ -1,0 +1,43 @@
+/* What is right and still looks like a mistake: checks on each stage of a scene. */
+#ifndef WRT_LINT_LINT_H
+#define WRT_LINT_LINT_H
+
+#include "ast/ast.h"
+#include "diag/diag.h"
+#include "eval/desc.h"
+#include "lower/lower.h"
+
+/* What a check needs of the scene, each more than the one before. */
+enum lint_stage {
+    LINT_TEXT,        /* the tree */
+    LINT_DESCRIPTION, /* names resolved, values typed, no errors */
+    LINT_SCENE,       /* lowered: meshes and textures are read */
+    LINT_RAYS,        /* some rays are traced */
+    LINT_STAGES
+};
+
+/* A scene under examination; what the stage does not need yet is NULL. */
+struct lint {
+    const struct ast *ast;
+    const struct desc *desc;
+    const struct lowered *lowered;
+    struct srcmap *sources;
+    struct diag *diag;
+};
+
+/* Runs the checks of one stage, but for those whose rules are all switched off. */
+void lint_run(const struct lint *l, enum lint_stage stage);
+
+/* What finding this needs of the scene, in words; NULL for what no check here looks for. */
+const char *lint_needs(enum diag_code code);
+
+/* A number that decides. */
+struct lint_threshold {
+    enum diag_code code;
+    double value;
+    const char *meaning;
+};
+/* The n-th of those of the rule; NULL behind the last. */
+const struct lint_threshold *lint_threshold_of(enum diag_code code, unsigned n);
+
+#endif

@@ -1,0 +1,105 @@
+/* Comments that silence rules: `// wrt: allow(NAME, ...)`, `<!-- wrt: allow(NAME) -->`.
+ *
+ * One behind a statement on its line speaks of that statement; one behind an opening brace or tag
+ * of all of that block; any other of the statement that follows. */
+#include "config.h"
+
+#include "syntax/allow.h"
+
+#include <string.h>
+
+struct allows {
+    const struct ast *ast;
+    struct diag *diag;
+    size_t next; /* comment */
+};
+
+/* What stands around a comment. */
+struct surroundings {
+    const struct ast_node *before, *after, *around;
+};
+
+static const char *text_at(const struct ast *ast, uint32_t offset)
+{
+    return ast->source->text + (offset - ast->source->base);
+}
+
+static bool on_one_line(const struct ast *ast, uint32_t begin, uint32_t end)
+{
+    return begin <= end && !memchr(text_at(ast, begin), '\n', end - begin);
+}
+
+static struct span covered(const struct ast *ast, const struct surroundings *s, struct span comment)
+{
+    if (s->before && on_one_line(ast, s->before->span.end, comment.begin))
+        return s->before->span;
+    if (s->around && !s->before && on_one_line(ast, s->around->name_span.end, comment.begin))
+        return s->around->span;
+    return s->after ? s->after->span : (struct span){0, 0};
+}
+
+/* The names in the comment's parentheses; false when it is another comment. */
+static bool find_names(const struct ast *ast, struct span comment, struct span *names)
+{
+    static const char mark[] = "wrt: allow(";
+    struct str text = {text_at(ast, comment.begin), comment.end - comment.begin};
+    const char *at = text.at, *end = text.at + text.n;
+    while (at < end && strchr("/*<!- \t", *at))
+        at++;
+    if (!str_begins((struct str){at, (size_t)(end - at)}, mark))
+        return false;
+    at += sizeof mark - 1;
+    const char *close = memchr(at, ')', (size_t)(end - at));
+    if (!close)
+        return false;
+    names->begin = comment.begin + (uint32_t)(at - text.at);
+    names->end = comment.begin + (uint32_t)(close - text.at);
+    return true;
+}
+
+static void take_comment(struct allows *a, const struct surroundings *s)
+{
+    struct span comment = a->ast->trivia.at[a->next++].span, names;
+    if (!find_names(a->ast, comment, &names))
+        return;
+    struct span where = covered(a->ast, s, comment);
+    for (uint32_t at = names.begin; at <= names.end;) {
+        const char *text = text_at(a->ast, at), *comma = memchr(text, ',', names.end - at);
+        uint32_t end = comma ? at + (uint32_t)(comma - text) : names.end;
+        struct str name = str_trim((struct str){text, end - at});
+        uint32_t begin = at + (uint32_t)(name.at - text);
+        diag_allow(a->diag, where, (struct span){begin, begin + (uint32_t)name.n});
+        at = end + 1;
+    }
+}
+
+static bool has_comment_before(const struct allows *a, uint32_t offset)
+{
+    return a->next < a->ast->trivia.n && a->ast->trivia.at[a->next].span.begin < offset;
+}
+
+/* The comments among these siblings, in and between them, up to `end`.  Trees are not deep. */
+static void walk(struct allows *a, const struct ast_node *first, const struct ast_node *around,
+                 uint32_t end)
+{
+    struct surroundings s = {.around = around};
+    for (const struct ast_node *n = first; n; n = n->next) {
+        s.after = n;
+        while (has_comment_before(a, n->span.begin))
+            take_comment(a, &s);
+        if (has_comment_before(a, n->span.end))
+            walk(a, n->children, n->kind == AST_BODY ? around : n, n->span.end);
+        s.before = n;
+    }
+    s.after = NULL;
+    while (has_comment_before(a, end))
+        take_comment(a, &s);
+}
+
+void syntax_find_allows(const struct ast *ast, struct diag *diag)
+{
+    struct allows a = {.ast = ast, .diag = diag};
+    struct str text = {ast->source->text, ast->source->n};
+    if (memmem(text.at, text.n, "wrt: allow(", strlen("wrt: allow(")))
+        walk(&a, ast->statements, NULL, UINT32_MAX);
+}
