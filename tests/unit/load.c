@@ -6,6 +6,7 @@
 #include "syntax/syntax.h"
 #include "validate/validate.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void load_text(struct load *l, const char *name, const char *text)
@@ -84,4 +85,15 @@ void load_free(struct load *l)
 const char *load_first(const struct load *l)
 {
     return l->diag.entries.n ? l->diag.entries.at[0]->message : "";
+}
+
+void load_findings(struct load *l, char *out, size_t room)
+{
+    out[0] = 0;
+    diag_sort(&l->diag);
+    for (size_t i = 0, n = 0; i < l->diag.entries.n; i++, n = strlen(out)) {
+        const struct diag_entry *e = l->diag.entries.at[i];
+        struct str at = srcmap_text(&l->sources, e->span);
+        snprintf(out + n, room - n, "%s:%.*s|", diag_rules[e->code].code, STR_ARG(at));
+    }
 }

@@ -35,6 +35,9 @@ bool load_lower_placed(struct load *l, const char *name, const char *text,
 
 void load_free(struct load *l);
 
+/* Every finding as "E104:the text it stands at|", in the order of the text. */
+void load_findings(struct load *l, char *out, size_t room);
+
 /* The first finding's code and message; "" when there is none. */
 const char *load_first(const struct load *l);
 

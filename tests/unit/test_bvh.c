@@ -3,34 +3,12 @@
 
 #include "unit.h"
 
+#define TRIES_SEED 2
+#include "tries.h"
+
 #include "accel/shaft.h"
-#include "math/rng.h"
 
 #include <string.h>
-
-/* How many of the tries are made: all, or some under a sanitizer. */
-#ifdef __SANITIZE_ADDRESS__
-#define TRIES(n) ((n) / 20)
-#else
-#define TRIES(n) (n)
-#endif
-
-static uint64_t counter;
-
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * rng_uniform(2, counter++, 0, 0);
-}
-
-static uint32_t below(uint32_t n)
-{
-    return (uint32_t)uniform(0, n);
-}
-
-static struct vec3 random_vector(double size)
-{
-    return vec3(uniform(-size, size), uniform(-size, size), uniform(-size, size));
-}
 
 static void add_triangle(struct geometry *g, uint32_t surface, struct vec3 a, struct vec3 b,
                          struct vec3 c)

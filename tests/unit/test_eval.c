@@ -228,16 +228,10 @@ static const struct {
 START_TEST(native_mistakes)
 {
     struct load l;
-    char text[1000], found[500] = "";
+    char text[1000], found[500];
     snprintf(text, sizeof text, NATIVE "%s\n", mistakes[_i].body);
     load_validate(&l, text);
-    diag_sort(&l.diag);
-    for (size_t i = 0; i < l.diag.entries.n; i++) {
-        const struct diag_entry *e = l.diag.entries.at[i];
-        size_t n = strlen(found);
-        struct str at = srcmap_text(&l.sources, e->span);
-        snprintf(found + n, sizeof found - n, "%s:%.*s|", diag_rules[e->code].code, STR_ARG(at));
-    }
+    load_findings(&l, found, sizeof found);
     ck_assert_msg(strcmp(found, mistakes[_i].findings) == 0, "%s: %s", mistakes[_i].body, found);
     load_free(&l);
 }

@@ -2,15 +2,14 @@
  * Whether those programs then make the same picture, tests/numeric/export.sh tells. */
 #include "config.h"
 
-#include "base/file.h"
 #include "convert/export.h"
 
+#include "folder.h"
 #include "load.h"
 #include "unit.h"
 
 #include <jansson.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define HEAD                                                                                       \
     "wrt 1\nmodel classic\n"                                                                       \
@@ -20,30 +19,20 @@
 #define WHITE "material: lambert { diffuse: 1 }"
 #define BALL "sphere { center: (0.1, 0, 0)  radius: 2  "
 
-static char folder[64], scene_name[80];
+static struct folder folder;
+static char scene_name[80];
 
 static void set_up(void)
 {
-    strcpy(folder, "/tmp/wrt-unit.XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    ck_assert_int_eq(chdir(folder), 0);
-    snprintf(scene_name, sizeof scene_name, "%s/scene", folder);
-    struct picture *p = picture_new(2, 3, false);
-    for (uint32_t i = 0; i < 6; i++)
-        picture_set(p, i % 2, i / 2, vec3(1, i < 3, 0));
-    char why[IMAGE_REASON_BYTES];
-    size_t n;
-    void *png = picture_encode(p, PICTURE_PNG, &n, why);
-    ck_assert_ptr_null(file_write("t.png", png, n));
-    free(png);
-    picture_free(p);
+    folder_enter(&folder);
+    snprintf(scene_name, sizeof scene_name, "%s/scene", folder.path);
+    folder_add_picture("t.png");
 }
 
 static void tear_down(void)
 {
-    unlink("t.png");
-    ck_assert_int_eq(chdir("/"), 0);
-    ck_assert_int_eq(rmdir(folder), 0);
+    static const char *const names[] = {"t.png"};
+    folder_leave(&folder, names, COUNT(names));
 }
 
 typedef void writer(const struct scene *scene, const char *path, struct buffer *out,

@@ -4,7 +4,9 @@
 
 #include "unit.h"
 
-#include "math/rng.h"
+#define TRIES_SEED 1
+#include "tries.h"
+
 #include "scene/geometry.h"
 
 #define EPS 0x1p-53
@@ -49,35 +51,6 @@ static __float128 wide_sqrt(__float128 a)
     return x;
 }
 
-/* How many of the tries are made: all, or some under a sanitizer. */
-#ifdef __SANITIZE_ADDRESS__
-#define TRIES(n) ((n) / 20)
-#else
-#define TRIES(n) (n)
-#endif
-
-static uint64_t counter;
-
-/* Uniform in [lo, hi). */
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * rng_uniform(1, counter++, 0, 0);
-}
-
-static struct vec3 random_vector(double size)
-{
-    return vec3(uniform(-size, size), uniform(-size, size), uniform(-size, size));
-}
-
-static struct vec3 random_direction(void)
-{
-    struct vec3 v;
-    do
-        v = random_vector(1);
-    while (vec3_dot(v, v) > 1 || vec3_dot(v, v) < 0.01);
-    return vec3_normalize(v);
-}
-
 static struct ray ray_to(struct vec3 origin, struct vec3 target)
 {
     return (struct ray){.origin = origin,
@@ -85,15 +58,6 @@ static struct ray ray_to(struct vec3 origin, struct vec3 target)
                         .t_max = RAY_UNBOUNDED,
                         .from = PRIM_NONE,
                         .surface = SURFACE_NONE};
-}
-
-static bool shoot(const struct geometry *g, const struct ray *ray, struct hit *hit)
-{
-    struct ray_frame frame = ray_frame_of(ray);
-    *hit = hit_none(ray->t_max);
-    for (uint32_t i = 0; i < g->prims.n; i++)
-        geometry_intersect(g, i, ray, &frame, hit);
-    return hit->prim != PRIM_NONE;
 }
 
 /* How far the end of the ray is from the surface of the sphere. */

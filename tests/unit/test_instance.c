@@ -4,48 +4,17 @@
 
 #include "unit.h"
 
+#define TRIES_SEED 3
+#include "tries.h"
+
 #include "accel/bundle.h"
 #include "accel/shaft.h"
-#include "math/rng.h"
 #include "scene/geometry.h"
 
 #include <float.h>
 
 #define EPS 0x1p-53
 #define COUNT(a) (int)(sizeof(a) / sizeof *(a))
-
-/* How many of the tries are made: all, or some under a sanitizer. */
-#ifdef __SANITIZE_ADDRESS__
-#define TRIES(n) ((n) / 20)
-#else
-#define TRIES(n) (n)
-#endif
-
-static uint64_t counter;
-
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * rng_uniform(3, counter++, 0, 0);
-}
-
-static uint32_t below(uint32_t n)
-{
-    return (uint32_t)uniform(0, n);
-}
-
-static struct vec3 random_vector(double size)
-{
-    return vec3(uniform(-size, size), uniform(-size, size), uniform(-size, size));
-}
-
-static struct vec3 random_direction(void)
-{
-    struct vec3 v;
-    do
-        v = random_vector(1);
-    while (vec3_dot(v, v) > 1 || vec3_dot(v, v) < 0.01);
-    return vec3_normalize(v);
-}
 
 /* Turned, scaled by up to `uneven` more along one axis than along another, turned again, and moved
  * by up to `far` times its size; every other one is a mirror. */
@@ -160,15 +129,6 @@ static void add_any(struct geometry *g, uint32_t surface, int kind, const struct
 static struct vec3 origin_of(const struct affine *m)
 {
     return vec3(m->m[0][3], m->m[1][3], m->m[2][3]);
-}
-
-static bool shoot(const struct geometry *g, const struct ray *ray, struct hit *hit)
-{
-    struct ray_frame frame = ray_frame_of(ray);
-    *hit = hit_none(ray->t_max);
-    for (uint32_t i = 0; i < g->prims.n; i++)
-        geometry_intersect(g, i, ray, &frame, hit);
-    return hit->prim != PRIM_NONE;
 }
 
 static struct ray ray_to(struct vec3 origin, struct vec3 target)

@@ -430,19 +430,13 @@ static const struct {
 START_TEST(mistakes_of_statements)
 {
     struct load l;
-    char scene[2000], found[500] = "";
+    char scene[2000], found[500];
     snprintf(scene, sizeof scene,
              SCENE "camera { eye: 0  back: (0, 0, 1)  up: (0, 1, 0)  yfov: 20  resolution: (8, 8) }"
                    " %s\n",
              mistakes[_i].body);
     load_validate(&l, scene);
-    diag_sort(&l.diag);
-    for (size_t i = 0; i < l.diag.entries.n; i++) {
-        const struct diag_entry *e = l.diag.entries.at[i];
-        size_t n = strlen(found);
-        struct str at = srcmap_text(&l.sources, e->span);
-        snprintf(found + n, sizeof found - n, "%s:%.*s|", diag_rules[e->code].code, STR_ARG(at));
-    }
+    load_findings(&l, found, sizeof found);
     ck_assert_msg(strcmp(found, mistakes[_i].findings) == 0, "%s: %s", mistakes[_i].body, found);
     load_free(&l);
 }

@@ -3,12 +3,12 @@
 
 #include "base/file.h"
 
+#include "folder.h"
 #include "load.h"
 #include "unit.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define NATIVE               \
     "wrt 1\nmodel classic\n" \
@@ -19,33 +19,23 @@ static const char tetrahedron[] = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
                                   "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 static const char uv_list[] = "0 0\n1 0\n0 1\n0 0\n1 0\n0 1\n0 0\n1 0\n0 1\n0 0\n1 0\n0 .5\n";
 
-static char folder[64], scene_name[80];
+static struct folder folder;
+static char scene_name[80];
 
 /* A folder with a mesh, its UV list and a texture. */
 static void set_up(void)
 {
-    strcpy(folder, "/tmp/wrt-unit.XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    ck_assert_int_eq(chdir(folder), 0);
-    snprintf(scene_name, sizeof scene_name, "%s/scene", folder);
+    folder_enter(&folder);
+    snprintf(scene_name, sizeof scene_name, "%s/scene", folder.path);
     ck_assert_ptr_null(file_write("m.off", tetrahedron, sizeof tetrahedron - 1));
     ck_assert_ptr_null(file_write("uv.txt", uv_list, sizeof uv_list - 1));
-    struct picture *p = picture_new(2, 3, false);
-    char why[IMAGE_REASON_BYTES];
-    size_t n;
-    void *png = picture_encode(p, PICTURE_PNG, &n, why);
-    ck_assert_ptr_null(file_write("t.png", png, n));
-    free(png);
-    picture_free(p);
+    folder_add_picture("t.png");
 }
 
 static void tear_down(void)
 {
-    unlink("m.off");
-    unlink("uv.txt");
-    unlink("t.png");
-    ck_assert_int_eq(chdir("/"), 0);
-    ck_assert_int_eq(rmdir(folder), 0);
+    static const char *const names[] = {"m.off", "uv.txt", "t.png"};
+    folder_leave(&folder, names, COUNT(names));
 }
 
 /* Without OpenMesh meshes are errors of their own. */
