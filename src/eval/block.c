@@ -76,9 +76,9 @@ struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const stru
             eval_property(e, &e->out->arena, o, m);
         else if (m->kind == AST_LABEL)
             take_label(e, o, m);
-        else if (m->kind == AST_ERROR)
-            o->broken = true;
         else
+            o->broken = true; /* what it might have held is not missed */
+        if (m->kind != AST_PROPERTY && m->kind != AST_LABEL && m->kind != AST_ERROR)
             diag_report(e->diag, DIAG_MISPLACED, m->name_span,
                         "a statement cannot stand in a block of '%s'", schema_kinds[kind].native);
     }

@@ -422,6 +422,8 @@ static const struct {
     {"define d(r) { sphere { center: 0  radius: r  material: a } } for i in [1, -1, -2] { d(i) }",
      "E111:r|"},
     {"for i in range(3) { sphere { center: 0  material: a } }", "E112:sphere|"},
+    {"sphere { if true { radius: 1 }  center: 0  material: lambert { diffuse: 1 } }",
+     "E108:if true { radius: 1 }|"},
     /* what was not read is not missed */
     {"include \"none\" sphere { center: 0  radius: r1  material: f(1) } g() h { }",
      "E201:\"none\"|E101:h|"},
