@@ -63,6 +63,8 @@ static void add_light(struct exporting *e, const struct light *l)
     buffer_puts(e->out, "\n");
     if (l->kind == LIGHT_AREA)
         export_lose(e, LOSS_AREA_POINT, l->span);
+    if (l->both_sides)
+        export_lose(e, LOSS_SIDEWAYS, l->span);
 }
 
 /* ---- materials ------------------------------------------------------------------------------- */

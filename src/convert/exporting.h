@@ -17,6 +17,7 @@
     X(BENDING, "glass is seen through without bending the light")                               \
     X(AREA_GRID, "area lights become flat grids of points")                                     \
     X(AREA_POINT, "area lights become points: their shadows are hard")                          \
+    X(SIDEWAYS, "flat lights shine sideways as brightly as ahead")                              \
     X(EMISSIVE_SHADOW, "emissive surfaces cast shadows")                                        \
     X(UNEVEN, "unevenly scaled spheres and cylinders become triangles")                         \
     X(FALLOFF,                                                                                  \
