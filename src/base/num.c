@@ -21,8 +21,8 @@ enum { EXACT_POWERS = sizeof exact_power / sizeof *exact_power, EXPONENT_LIMIT =
 struct decimal {
     const char *begin, *end; /* the spelling, without the sign */
     uint64_t digits;         /* all digits read as one integer, when there are at most 19 */
-    int digit_count;         /* significant ones */
-    int exponent;            /* of ten, on `digits` */
+    ptrdiff_t digit_count;   /* without the zeros at the left */
+    ptrdiff_t exponent;      /* of ten, on `digits` */
     bool negative;
 };
 
@@ -31,14 +31,16 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-static const char *read_digits(const char *p, const char *end, struct decimal *d, int scale)
+static const char *read_digits(const char *p, const char *end, struct decimal *d)
 {
-    for (; p < end && is_digit(*p); p++) {
-        if (d->digit_count < 19)
-            d->digits = d->digits * 10 + (uint64_t)(*p - '0');
-        d->digit_count += d->digits != 0 && d->digit_count < EXPONENT_LIMIT;
-        d->exponent += scale;
-    }
+    while (p < end && *p == '0' && !d->digit_count)
+        p++;
+    const char *first = p;
+    uint64_t digits = d->digits;
+    for (; p < end && is_digit(*p); p++)
+        digits = digits * 10 + (uint64_t)(*p - '0');
+    d->digits = digits;
+    d->digit_count += p - first;
     return p;
 }
 
@@ -61,11 +63,12 @@ static bool scan(const char *p, const char *end, struct decimal *d)
     *d = (struct decimal){.negative = p < end && *p == '-'};
     p += p < end && (*p == '-' || *p == '+');
     d->begin = p;
-    const char *after = read_digits(p, end, d, 0);
+    const char *after = read_digits(p, end, d);
     bool any = after > p;
     if (after < end && *after == '.') {
         const char *fraction = after + 1;
-        after = read_digits(fraction, end, d, -1);
+        after = read_digits(fraction, end, d);
+        d->exponent = fraction - after;
         any = any || after > fraction;
     }
     if (!any)
@@ -94,7 +97,7 @@ static double convert_slowly(const struct decimal *d)
 
 static double convert(const struct decimal *d)
 {
-    if (d->digits == 0 && d->digit_count == 0)
+    if (!d->digit_count)
         return 0;
     bool fits = d->digit_count <= 19 && d->digits < (UINT64_C(1) << 53);
     if (fits && d->exponent >= 0 && d->exponent < EXACT_POWERS)
