@@ -10,28 +10,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
-/* Blocks grow with the arena, from BLOCK_BYTES to BLOCK_MOST; those from BLOCK_LARGE on ask the
- * system for large pages, which come sooner than as many small ones. */
-enum { BLOCK_BYTES = 64 << 10, BLOCK_LARGE = 4 << 20, BLOCK_MOST = 16 << 20, ALIGNMENT = 8 };
+/* Blocks grow with the arena, from BLOCK_LEAST to BLOCK_MOST with their heads. */
+enum { BLOCK_LEAST = 64 << 10, BLOCK_MOST = 16 << 20, ALIGNMENT = 8 };
 
 struct arena_block {
     struct arena_block *next;
     char *end;
     uint64_t data[];
 };
-
-static void ask_large_pages(void *p, size_t n)
-{
-#ifdef MADV_HUGEPAGE
-    enum { PAGE = 4096 };
-    char *first = (char *)(((uintptr_t)p + PAGE - 1) & ~(uintptr_t)(PAGE - 1));
-    madvise(first, n - (size_t)(first - (char *)p), MADV_HUGEPAGE); /* no is an answer, too */
-#else
-    (void)p, (void)n;
-#endif
-}
 
 static size_t clamp(size_t n, size_t least, size_t most)
 {
@@ -40,14 +27,12 @@ static size_t clamp(size_t n, size_t least, size_t most)
 
 static struct arena_block *new_block(const struct arena *a, size_t n)
 {
-    size_t room = clamp(a->bytes / 4, BLOCK_BYTES, BLOCK_MOST);
-    room = n > room ? n : room;
-    if (room > SIZE_MAX - sizeof(struct arena_block))
+    size_t head = sizeof(struct arena_block), size = clamp(a->bytes, BLOCK_LEAST, BLOCK_MOST);
+    if (n > SIZE_MAX - head)
         mem_exhausted(SIZE_MAX);
-    struct arena_block *b = mem_alloc(1, sizeof *b + room);
-    b->end = (char *)b->data + room;
-    if (room >= BLOCK_LARGE)
-        ask_large_pages(b, room);
+    size = n + head > size ? n + head : size;
+    struct arena_block *b = mem_alloc_large(size);
+    b->end = (char *)b + size;
     return b;
 }
 

@@ -19,7 +19,7 @@ static const char *read_all(int fd, size_t expected, char **data, size_t *n)
 {
     enum { ROOM = 2, FIRST = 64 * 1024 };
     size_t capacity = expected ? expected + 1 : FIRST, have = 0;
-    char *buffer = mem_alloc(capacity + ROOM, 1);
+    char *buffer = mem_alloc_large(capacity + ROOM);
     for (;;) {
         if (have == capacity) {
             capacity *= 2;

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 
 void mem_exhausted(size_t wanted)
 {
@@ -43,6 +44,20 @@ void *mem_realloc(void *old, size_t n, size_t size)
     void *p = realloc(old, bytes);
     if (!p)
         mem_exhausted(bytes);
+    return p;
+}
+
+void *mem_alloc_large(size_t n)
+{
+    enum { PAGE = 2 << 20 };
+    void *p = NULL;
+    if (n < PAGE)
+        return mem_alloc(n, 1);
+    if (n > PTRDIFF_MAX || posix_memalign(&p, PAGE, n) != 0)
+        mem_exhausted(n);
+#ifdef MADV_HUGEPAGE
+    madvise(p, n, MADV_HUGEPAGE); /* no is an answer, too */
+#endif
     return p;
 }
 

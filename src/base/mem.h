@@ -13,6 +13,10 @@ void *mem_alloc(size_t n, size_t size);
 void *mem_zalloc(size_t n, size_t size);
 void *mem_realloc(void *p, size_t n, size_t size);
 
+/* n bytes that will be filled from their start on: many of them lie on large pages, where the system
+ * has some, which come sooner than as many small ones. */
+void *mem_alloc_large(size_t n);
+
 /* As mem_alloc for a multiple of 64 bytes, aligned to a cache line. */
 void *mem_alloc_aligned(size_t n, size_t size);
 
