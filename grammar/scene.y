@@ -65,6 +65,7 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %token <text> NUMBER "number" DEGREES "angle" RADIANS "angle in radians"
 %token <text> STRING "string"
 %token <text> COLOUR "colour"
+%token <text> MEMBER "member" OPENING "member up to its '{'" /* several as one: syntax/members.c */
 %token WRT "'wrt'" MODEL "'model'" LET "'let'" PARAM "'param'"
 %token <text> MATERIAL "'material'" TEXTURE "'texture'"
 %token INCLUDE "'include'" FN "'fn'" DEFAULT "'default'" DEFINE "'define'" ASSERT "'assert'"
@@ -94,7 +95,7 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %token <text> XML_TEXT "text" XML_CLOSE "closing tag"
 %token XML_EQUALS "'=' of an attribute" XML_TAG_END "'>'" XML_EMPTY_END "'/>'"
 
-%nterm <list> statements members block
+%nterm <list> statements members block rest_of_block
 %nterm <list> parameters parameter_list arguments argument_list
 %nterm <list> values components attributes
 %nterm <node> statement if body member
@@ -205,8 +206,12 @@ body:
 ;
 
 block:
-  LBRACE members RBRACE        { $$ = $members; }
-| LBRACE members error RBRACE  { $$ = ast_append_error(p->ast, $members, @error); }
+  LBRACE rest_of_block  { $$ = $2; }
+;
+
+rest_of_block:
+  members RBRACE        { $$ = $members; }
+| members error RBRACE  { $$ = ast_append_error(p->ast, $members, @error); }
 ;
 
 members:
@@ -219,7 +224,9 @@ members:
 ;
 
 member:
-  property_name COLON value
+  MEMBER                 { $$ = parser_member(p, @$, $1); }
+| OPENING rest_of_block  { $$ = parser_construct(p, @$, $OPENING, $2); }
+| property_name COLON value
     { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name), $value); }
 | property_name COLON error
     { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name),

@@ -2,6 +2,8 @@
 
 #include "ast/ast.h"
 
+#include "base/num.h"
+
 const struct ast_operator_row ast_operators[AST_OPERATORS] = {
     [AST_NO_OPERATOR] = {"", 0},  [AST_OR] = {"||", 1},        [AST_AND] = {"&&", 2},
     [AST_EQUAL] = {"==", 3},      [AST_NOT_EQUAL] = {"!=", 3}, [AST_LESS] = {"<", 4},
@@ -22,11 +24,18 @@ void ast_free(struct ast *a)
     arena_free(&a->arena);
 }
 
+static struct ast_node *new_node(struct arena *a, enum ast_kind kind, struct span span)
+{
+    struct ast_node *n = arena_alloc(a, sizeof *n);
+    *n = (struct ast_node){.kind = (uint8_t)kind, .span = span, .name_span = span};
+    return n;
+}
+
 struct ast_node *ast_node(struct ast *a, enum ast_kind kind, struct span span)
 {
-    struct ast_node *n = arena_alloc(&a->arena, sizeof *n);
+    struct ast_node *n = new_node(&a->arena, kind, span);
+    n->xml = a->xml;
     a->nodes++;
-    *n = (struct ast_node){.kind = (uint8_t)kind, .span = span, .name_span = span, .xml = a->xml};
     return n;
 }
 
@@ -131,6 +140,75 @@ struct ast_list ast_concat(struct ast_list a, struct ast_list b)
     a.last->next = b.first;
     a.last = b.last;
     return a;
+}
+
+/* ---- plain values ---- */
+
+struct span ast_value_span(const struct ast_node *property)
+{
+    uint32_t end = property->span.end;
+    return property->children ? property->children->span
+                              : (struct span){end - (uint32_t)property->text.n, end};
+}
+
+static bool is_between_numbers(char c)
+{
+    return c <= ' ' || c == ',' || c == '(' || c == ')';
+}
+
+/* The next number of a plain value, and where it stands; false behind the last. */
+static bool next_number(struct str text, size_t *at, struct str *spelling, double *x)
+{
+    while (*at < text.n && is_between_numbers(text.at[*at]))
+        ++*at;
+    if (*at == text.n)
+        return false;
+    const char *end = num_parse(text.at + *at, text.at + text.n, x);
+    *spelling = (struct str){text.at + *at, (size_t)(end - text.at) - *at};
+    *at += spelling->n;
+    return true;
+}
+
+unsigned ast_plain_value(const struct ast_node *property, double numbers[3])
+{
+    struct str spelling;
+    unsigned n = 0;
+    size_t at = 0;
+    if (property->children)
+        return 0;
+    while (next_number(property->text, &at, &spelling, &numbers[n]))
+        n++;
+    return n;
+}
+
+/* As the grammar makes them: a sign is an operator. */
+static struct ast_node *number_node(struct arena *a, struct span span, bool negative, double x)
+{
+    struct span digits = {span.begin + negative, span.end};
+    struct ast_node *n = new_node(a, AST_NUMBER, digits);
+    n->number = negative ? -x : x;
+    if (!negative)
+        return n;
+    n->operator= AST_NEGATE;
+    return ast_with(new_node(a, AST_PREFIX, span), n);
+}
+
+const struct ast_node *ast_value(const struct ast_node *property, struct arena *a)
+{
+    struct span span = ast_value_span(property);
+    struct ast_list numbers = {0};
+    struct str spelling;
+    size_t at = 0;
+    double x;
+    if (property->children)
+        return property->children;
+    while (next_number(property->text, &at, &spelling, &x)) {
+        uint32_t end = span.begin + (uint32_t)at;
+        struct span place = {end - (uint32_t)spelling.n, end};
+        numbers = ast_append(numbers, number_node(a, place, *spelling.at == '-', x));
+    }
+    bool vector = numbers.first != numbers.last;
+    return vector ? ast_holding(new_node(a, AST_VECTOR, span), numbers) : numbers.first;
 }
 
 size_t ast_count(const struct ast_node *first)

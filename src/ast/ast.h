@@ -34,7 +34,8 @@ enum ast_kind {
     AST_USE,       /* chair(a, b = 1) { ... }  name: chair; children: arguments, perhaps a body */
     AST_BLOCK,     /* sphere ball { ... }      name: sphere; label: ball; children: members */
                    /* <surface class="Sphere"> name: surface; children: attributes, members */
-    AST_PROPERTY,  /* radius: v                name: radius; children: v */
+    AST_PROPERTY,  /* radius: v                name: radius; children: v; or none and text: v, */
+                   /*                          when v is a plain number or vector: see ast_value */
                    /* <radius>1</radius>       name: radius; children: one AST_TEXT */
     AST_ATTRIBUTE, /* class="Sphere"           name: class; children: one AST_TEXT */
 
@@ -171,6 +172,13 @@ struct ast_list ast_append(struct ast_list list, struct ast_node *node);
 struct ast_list ast_append_error(struct ast *a, struct ast_list list, struct span span);
 /* a, then b. */
 struct ast_list ast_concat(struct ast_list a, struct ast_list b);
+
+/* The value of a native property.  A plain one, a number or a vector of numbers, is kept as text,
+ * since large scenes hold little else; its nodes are made here, in the caller's memory. */
+const struct ast_node *ast_value(const struct ast_node *property, struct arena *memory);
+/* Its numbers without nodes, and how many: 1, or 2 or 3 of a vector; 0 when it is not plain. */
+unsigned ast_plain_value(const struct ast_node *property, double numbers[3]);
+struct span ast_value_span(const struct ast_node *property);
 
 size_t ast_count(const struct ast_node *first);
 

@@ -90,7 +90,7 @@ static void walk(struct mover *m, const struct ast_node *n)
             vec_push(&m->strings, n);
         else if (n->kind == AST_INCLUDE)
             move_include(m, n->children);
-        else if (names_file(n))
+        else if (names_file(n) && n->children)
             move_value(m, n->children);
         walk(m, n->children);
     }

@@ -133,7 +133,7 @@ static void put_part(struct xml_writer *w, enum schema_prop_id id, unsigned i,
 static void put_leaf(struct xml_writer *w, enum schema_prop_id id, const struct desc_value *v,
                      const struct ast_node *property)
 {
-    const struct ast_node *value = property ? property->children : NULL;
+    const struct ast_node *value = property ? ast_value(property, &w->arena) : NULL;
     struct buffer *out = w->out, text = {0};
     struct str leaf = schema_leaf(id, 0);
     buffer_printf(out, "<%.*s>", STR_ARG(leaf));
@@ -172,7 +172,7 @@ static void put_material(struct xml_writer *w, const struct desc_value *v,
 static void put_parts(struct xml_writer *w, const struct desc_prop *p,
                       const struct ast_node *property)
 {
-    const struct ast_node *value = property ? property->children : NULL;
+    const struct ast_node *value = property ? ast_value(property, &w->arena) : NULL;
     unsigned n = schema_leaf_count((enum schema_prop_id)p->id);
     if (property)
         xml_put_between(w, property->span.begin, value->span.begin, COMMENT_OWN_LINE);

@@ -11,8 +11,6 @@ void xml_index_nodes(struct xml_writer *w, const struct ast_node *n)
             n->kind == AST_BLOCK || n->kind == AST_CONSTRUCT || n->kind == AST_PROPERTY;
         if (looked_up)
             vec_push(&w->nodes, (struct entry){n->span.begin, n});
-        if (n->kind == AST_PROPERTY && n->children->kind != AST_CONSTRUCT)
-            vec_push(&w->nodes, (struct entry){n->children->span.begin, n->children});
         xml_index_nodes(w, n->children);
     }
 }

@@ -29,12 +29,24 @@ static bool eval_word(struct eval *e, enum schema_prop_id id, const struct ast_n
     return false;
 }
 
-static bool eval_property_value(struct eval *e, enum schema_prop_id id, const struct ast_node *node,
-                                struct desc_value *out)
+/* A plain value needs no nodes. */
+static struct value plain_value(const struct eval *e, const struct ast_node *property)
 {
-    if (schema_props[id].type == TYPE_WORD && node->kind == AST_NAME)
+    struct value v = {.span = ast_value_span(property)};
+    if (e->given_up)
+        return value_error(v.span);
+    v.n = ast_plain_value(property, v.number);
+    v.type = v.n == 1 ? VALUE_NUMBER : VALUE_VECTOR;
+    return v;
+}
+
+static bool eval_property_value(struct eval *e, enum schema_prop_id id,
+                                const struct ast_node *property, struct desc_value *out)
+{
+    const struct ast_node *node = property->children;
+    if (node && schema_props[id].type == TYPE_WORD && node->kind == AST_NAME)
         return eval_word(e, id, node, out);
-    struct value v = eval_value(e, node);
+    struct value v = node ? eval_value(e, node) : plain_value(e, property);
     return value_convert(e, id, &v, out);
 }
 
@@ -42,18 +54,18 @@ static bool eval_property_value(struct eval *e, enum schema_prop_id id, const st
 static void eval_property(struct eval *e, struct arena *a, struct desc_object *o,
                           const struct ast_node *node)
 {
-    const struct ast_node *value = node->children;
     unsigned leaf;
     enum schema_prop_id id = object_find_prop(e, o, node->name, node->name_span, &leaf);
     struct desc_prop *p =
         id != SCHEMA_PROPS ? object_prop(e, a, o, id, leaf, node->name_span) : NULL;
     if (!p) {
-        eval_value(e, value); /* for its own mistakes */
+        if (node->children)
+            eval_value(e, node->children); /* for its own mistakes */
         o->broken = true;
         return;
     }
-    p->broken = !eval_property_value(e, id, value, &p->value);
-    p->value.span = value->span;
+    p->broken = !eval_property_value(e, id, node, &p->value);
+    p->value.span = ast_value_span(node);
     o->broken |= p->broken;
 }
 

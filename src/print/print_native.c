@@ -56,7 +56,7 @@ static void print_member(struct printing *p, const struct ast_node *n, bool firs
     }
     print_token(p, n->name.n);
     print_word(p, ":");
-    print_spaced(p, n->children);
+    print_spaced(p, ast_value(n, &p->texts));
 }
 
 /* A block stays on one line when it fits and holds neither comment nor statement. */

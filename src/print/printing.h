@@ -24,7 +24,7 @@ struct printing {
     const struct ast *ast;
     struct gap gap;
     struct layout layout;
-    struct arena texts; /* texts that differ from their spelling */
+    struct arena texts; /* texts that differ from their spelling, nodes of plain values */
     struct joint joint;
     bool opened;         /* the last token opened what follows: no blank line */
     unsigned groups_due; /* begin with the next token */

@@ -103,6 +103,7 @@ static void add_advice(const struct parser *p, struct diag_entry *e, struct span
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n)
 {
+    p->astray = true;
     if (p->stopped || p->feigned)
         return;
     const char *shown[EXPECTED_MOST];

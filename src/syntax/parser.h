@@ -37,6 +37,8 @@ struct parser {
     struct ast_list version;             /* native: `wrt 1` */
     struct span brackets[NESTING_LIMIT]; /* native: the open ones */
     unsigned depth;                      /* native: how many */
+    bool member_due;                     /* native: a member of a block may begin */
+    bool astray;                         /* native: after the first syntax error */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
@@ -68,6 +70,19 @@ void parser_stop(struct parser *p, enum diag_code code, struct span span, const 
 /* Native brackets; parser_nest is false when they are nested too deeply. */
 bool parser_nest(struct parser *p, struct span span);
 void parser_unnest(struct parser *p);
+
+/* ---- members.c: members that are one token ---- */
+
+/* True when a member may begin behind this token. */
+bool parser_member_follows(const struct parser *p, int token);
+/* The span holds `name: ` and the first byte of a value.  When the value is plain, the span becomes
+ * the whole member's and *text what it spells; the result is how many bytes to take, those with the
+ * blanks behind it.  0: the value may be more than a number or a vector of them. */
+size_t parser_plain_member(struct parser *p, struct span *span, struct str *text);
+struct ast_node *parser_member(struct parser *p, struct span span, struct str text);
+/* `name: kind {` and the members in the braces. */
+struct ast_node *parser_construct(struct parser *p, struct span span, struct str opening,
+                                  struct ast_list members);
 
 /* ---- build.c: grammar actions longer than a constructor ---- */
 

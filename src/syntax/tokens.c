@@ -67,6 +67,13 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     return xml_balance(p, token, *span, value->text);
 }
 
+static int next_native(SCENE_STYPE *value, struct span *span, struct parser *p)
+{
+    int token = native_scan(value, span, p->scanner);
+    p->member_due = parser_member_follows(p, token);
+    return token;
+}
+
 int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
     bool xml = p->ast->xml;
@@ -79,7 +86,7 @@ int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p)
     }
     int token = p->stopped ? TOKEN_END
                 : xml      ? next_xml(value, span, p)
-                           : native_scan(value, span, p->scanner);
+                           : next_native(value, span, p);
     p->previous = p->now;
     p->now = *span;
     if (p->ast->nodes > NODE_LIMIT)

@@ -5,6 +5,7 @@
  * A text that breaks a property is printed, with its seed. */
 #include "config.h"
 
+#include "apart.h"
 #include "events.h"
 #include "random.h"
 
@@ -54,34 +55,6 @@ static void text_free(struct text *t)
 }
 
 /* ---- what must be the same ---- */
-
-static bool is_token(const struct ast_node *n)
-{
-    return n->kind == AST_NUMBER || n->kind == AST_ANGLE || n->kind == AST_STRING ||
-           n->kind == AST_BOOL || n->kind == AST_COLOUR || n->kind == AST_NAME ||
-           n->kind == AST_TEXT;
-}
-
-static bool same_spelling(const struct load *a, struct span x, const struct load *b, struct span y)
-{
-    return str_equal(srcmap_text(&a->sources, x), srcmap_text(&b->sources, y));
-}
-
-static bool same_trees(const struct load *la, const struct ast_node *a, const struct load *lb,
-                       const struct ast_node *b)
-{
-    for (; a && b; a = a->next, b = b->next) {
-        bool same = a->kind == b->kind && a->unit == b->unit &&
-                    a->operator== b->operator&& str_equal(a->name, b->name);
-        if (a->kind == AST_BLOCK || a->kind == AST_DEFAULT)
-            same = same && str_equal(a->label, b->label);
-        if (is_token(a))
-            same = same && same_spelling(la, a->span, lb, b->span);
-        if (!same || !same_trees(la, a->children, lb, b->children))
-            return false;
-    }
-    return !a && !b;
-}
 
 /* A text's bytes without white space and the separators that the layout may leave out; a comment
  * keeps those. */
@@ -190,6 +163,46 @@ static const char *check_native(uint64_t seed, struct text *t)
     random_native(seed, &t->bytes);
     text_end(t);
     return parse(t) ? broken_layout(t) : "x parses";
+}
+
+/* ---- members taken whole ---- */
+
+static const char *broken_reading(struct text *t, uint64_t seed)
+{
+    struct text whole = {0}, apart = {0};
+    damage(seed, &t->bytes);
+    put_colons((struct str){t->bytes.at, t->bytes.n}, false, &whole.bytes);
+    put_colons((struct str){t->bytes.at, t->bytes.n}, true, &apart.bytes);
+    read_all(&whole.load, whole.bytes.at);
+    read_all(&apart.load, apart.bytes.at);
+    bool same = same_reading(&whole.load, &apart.load);
+    if (!same) {
+        struct diag_print_options all = {.least = DIAG_NOTE};
+        diag_print(&whole.load.diag, &all, stdout);
+        puts("---- but token by token:");
+        diag_print(&apart.load.diag, &all, stdout);
+    }
+    text_free(&whole);
+    text_free(&apart);
+    return same ? NULL : "a member is the same whole and token by token";
+}
+
+static const char *check_members(uint64_t seed, struct text *t)
+{
+    random_native(seed, &t->bytes);
+    const char *broken = broken_reading(t, seed);
+    text_end(t);
+    load_text(&t->load, "scene", t->bytes.at);
+    return broken;
+}
+
+static const char *check_scene_members(uint64_t seed, struct text *t)
+{
+    random_scene(seed, &t->bytes);
+    const char *broken = broken_reading(t, seed);
+    text_end(t);
+    load_text(&t->load, "scene", t->bytes.at);
+    return broken;
 }
 
 /* ---- conversions ---- */
@@ -320,7 +333,8 @@ static bool write_files(void)
 static bool try_all(uint64_t first, unsigned long count)
 {
     for (uint64_t seed = first; seed < first + count; seed++)
-        if (!holds(check_native, seed) || !holds(check_xml, seed) || !holds(check_scene, seed))
+        if (!holds(check_native, seed) || !holds(check_xml, seed) || !holds(check_scene, seed) ||
+            !holds(check_members, seed) || !holds(check_scene_members, seed))
             return false;
     return true;
 }

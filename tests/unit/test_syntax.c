@@ -56,7 +56,8 @@ static const char *const kind_names[] = {
 };
 
 /* One line a node, in order, children deeper: what it is, its name, and the text at its place. */
-static void write_nodes(FILE *out, const struct load *l, const struct ast_node *n, int depth)
+static void write_nodes(FILE *out, const struct load *l, const struct ast_node *n, int depth,
+                        struct arena *memory)
 {
     for (; n; n = n->next) {
         struct str all = srcmap_text(&l->sources, n->span);
@@ -72,7 +73,8 @@ static void write_nodes(FILE *out, const struct load *l, const struct ast_node *
         if (n->kind == AST_TEXT || n->kind == AST_STRING)
             fprintf(out, " \"%.*s\"", STR_ARG(n->text));
         fprintf(out, ": %.*s\n", STR_ARG(all));
-        write_nodes(out, l, n->children, depth + 1);
+        bool property = n->kind == AST_PROPERTY;
+        write_nodes(out, l, property ? ast_value(n, memory) : n->children, depth + 1, memory);
     }
 }
 
@@ -81,7 +83,9 @@ static char *tree_of(const struct load *l)
     char *text;
     size_t n;
     FILE *out = open_memstream(&text, &n);
-    write_nodes(out, l, l->ast.statements, 0);
+    struct arena memory = {0};
+    write_nodes(out, l, l->ast.statements, 0, &memory);
+    arena_free(&memory);
     fclose(out);
     return text;
 }
