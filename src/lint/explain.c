@@ -11,6 +11,7 @@ static const struct explanation {
 } explanations[DIAG_CODES] = {
 #define EXPLAIN(id, why, wrong, right) [DIAG_##id] = {why, wrong, right},
 #include "lint/explain.def"
+#include "lint/explain_errors.def"
 #undef EXPLAIN
 };
 
