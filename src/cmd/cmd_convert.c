@@ -244,10 +244,10 @@ int command_convert(const struct options *o)
     const struct format *format = choose_format(o);
     if (!format)
         return EXIT_USAGE;
-    if (format->export && (o->expand || o->rebase || o->no_verify))
-        return usage_error("--%s is for xml and wrt", o->expand   ? "expand"
-                                                      : o->rebase ? "rebase"
-                                                                  : "no-verify");
+    if (o->expand && format->translate != write_xml)
+        return usage_error("--expand is for xml");
+    if (format->export && (o->rebase || o->no_verify))
+        return usage_error("--%s is for xml and wrt", o->rebase ? "rebase" : "no-verify");
     struct conversion c = {
         .options = o, .format = format, .input = o->scenes.at[0], .output = o->output};
     int status = convert(&c);
