@@ -37,3 +37,29 @@ void check_error(const struct reading *r, enum diag_code code, const char *place
     ck_assert_msg(str_is(at, place), "'%s' stands at '%.*s', not '%s'", e->message, STR_ARG(at),
                   place);
 }
+
+void blob_put(struct blob *b, uint64_t bits, int size)
+{
+    for (int i = 0; i < size; i++)
+        vec_push(&b->bytes, (char)(bits >> 8 * (b->big_endian ? size - 1 - i : i)));
+}
+
+void blob_float(struct blob *b, float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    blob_put(b, bits, 4);
+}
+
+void blob_double(struct blob *b, double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    blob_put(b, bits, 8);
+}
+
+void blob_text(struct blob *b, const char *text)
+{
+    for (; *text; text++)
+        vec_push(&b->bytes, *text);
+}

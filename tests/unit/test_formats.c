@@ -364,70 +364,39 @@ END_TEST
 
 /* ---- binary ---------------------------------------------------------------------------------- */
 
-struct blob {
-    VEC(char) bytes;
-    bool big_endian;
-};
-
-static void put(struct blob *b, uint64_t bits, int size)
-{
-    for (int i = 0; i < size; i++)
-        vec_push(&b->bytes, (char)(bits >> 8 * (b->big_endian ? size - 1 - i : i)));
-}
-
-static void put_text(struct blob *b, const char *text)
-{
-    for (; *text; text++)
-        vec_push(&b->bytes, *text);
-}
-
-static void put_double(struct blob *b, double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    put(b, bits, 8);
-}
-
-static void put_float(struct blob *b, float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    put(b, bits, 4);
-}
-
 /* All types, three points, a quad and a triangle. */
 static struct blob ply_blob(bool big_endian)
 {
     struct blob b = {.big_endian = big_endian};
-    put_text(&b, "ply\nformat binary_");
-    put_text(&b, big_endian ? "big_endian 1.0\n" : "little_endian 1.0\n");
-    put_text(&b, "element vertex 3\nproperty double x\nproperty float y\nproperty short z\n"
-                 "property char a\nproperty uchar b\nproperty ushort c\nproperty int nx\n"
-                 "property uint d\nproperty int ny\nproperty int8 nz\nelement face 2\n"
-                 "property list ushort uchar vertex_indices\nproperty list char double w\n"
-                 "end_header\n");
+    blob_text(&b, "ply\nformat binary_");
+    blob_text(&b, big_endian ? "big_endian 1.0\n" : "little_endian 1.0\n");
+    blob_text(&b, "element vertex 3\nproperty double x\nproperty float y\nproperty short z\n"
+                  "property char a\nproperty uchar b\nproperty ushort c\nproperty int nx\n"
+                  "property uint d\nproperty int ny\nproperty int8 nz\nelement face 2\n"
+                  "property list ushort uchar vertex_indices\nproperty list char double w\n"
+                  "end_header\n");
     for (int i = 0; i < 3; i++) {
-        put_double(&b, 0.1 + i);
-        put_float(&b, -2.5f * (float)i);
-        put(&b, (uint16_t)(-300 * i), 2);
-        put(&b, 0xFF, 1);
-        put(&b, 0xFF, 1);
-        put(&b, 0xFFFF, 2);
-        put(&b, 0, 4);
-        put(&b, 0xFFFFFFFF, 4);
-        put(&b, (uint32_t)-70000, 4);
-        put(&b, 0, 1);
+        blob_double(&b, 0.1 + i);
+        blob_float(&b, -2.5f * (float)i);
+        blob_put(&b, (uint16_t)(-300 * i), 2);
+        blob_put(&b, 0xFF, 1);
+        blob_put(&b, 0xFF, 1);
+        blob_put(&b, 0xFFFF, 2);
+        blob_put(&b, 0, 4);
+        blob_put(&b, 0xFFFFFFFF, 4);
+        blob_put(&b, (uint32_t)-70000, 4);
+        blob_put(&b, 0, 1);
     }
     static const uint8_t corners[] = {0, 1, 2, 1, 2, 1, 0};
-    put(&b, 4, 2);
+    blob_put(&b, 4, 2);
     for (int i = 0; i < 4; i++)
-        put(&b, corners[i], 1);
-    put(&b, 1, 1);
-    put_double(&b, 7);
-    put(&b, 3, 2);
+        blob_put(&b, corners[i], 1);
+    blob_put(&b, 1, 1);
+    blob_double(&b, 7);
+    blob_put(&b, 3, 2);
     for (int i = 4; i < 7; i++)
-        put(&b, corners[i], 1);
-    put(&b, 0, 1);
+        blob_put(&b, corners[i], 1);
+    blob_put(&b, 0, 1);
     return b;
 }
 
@@ -454,17 +423,17 @@ static struct blob stl_blob(const char *comment)
     static const float corners[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                        {0, 1, 0}, {1, 0, 0}, {0.1f, 1, -0.0f}};
     struct blob b = {0};
-    put_text(&b, comment);
+    blob_text(&b, comment);
     while (b.bytes.n < 80)
         vec_push(&b.bytes, ' ');
-    put(&b, 2, 4);
+    blob_put(&b, 2, 4);
     for (int i = 0; i < 6; i++) {
         for (int k = 0; i % 3 == 0 && k < 3; k++)
-            put_float(&b, NAN);
+            blob_float(&b, NAN);
         for (int k = 0; k < 3; k++)
-            put_float(&b, corners[i][k]);
+            blob_float(&b, corners[i][k]);
         if (i % 3 == 2)
-            put(&b, 0xFFFF, 2);
+            blob_put(&b, 0xFFFF, 2);
     }
     return b;
 }
@@ -512,15 +481,15 @@ START_TEST(stl_vertices_are_merged)
 {
     enum { SIDE = 60 };
     struct blob b = {0};
-    put_text(&b, "solid grid\n");
+    blob_text(&b, "solid grid\n");
     for (int i = 0; i < SIDE * SIDE; i++) {
         char facet[200];
         sprintf(facet,
                 "facet outer loop vertex %d %d 0 vertex %d %d 0 vertex %d %d 0 endloop endfacet\n",
                 i / SIDE, i % SIDE, i / SIDE + 1, i % SIDE, i / SIDE, i % SIDE + 1);
-        put_text(&b, facet);
+        blob_text(&b, facet);
     }
-    put_text(&b, "endsolid\n");
+    blob_text(&b, "endsolid\n");
     struct reading r;
     reading_init(&r, "m", b.bytes.at, b.bytes.n);
     struct mesh *m = mesh_parse(r.source, &r.diag);
@@ -547,7 +516,7 @@ static struct blob sample(int i)
     };
     struct blob b = {0};
     if (i < COUNT(texts))
-        put_text(&b, texts[i]);
+        blob_text(&b, texts[i]);
     else
         b = i == 3 ? stl_blob("x") : ply_blob(i == 4);
     return b;

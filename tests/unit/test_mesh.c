@@ -181,24 +181,6 @@ END_TEST
 
 /* ---- binary OFF ------------------------------------------------------------------------------ */
 
-struct blob {
-    VEC(char) bytes;
-    bool big_endian;
-};
-
-static void put_word(struct blob *b, uint32_t w)
-{
-    for (int i = 0; i < 4; i++)
-        vec_push(&b->bytes, (char)(w >> 8 * (b->big_endian ? 3 - i : i)));
-}
-
-static void put_float(struct blob *b, float f)
-{
-    uint32_t w;
-    memcpy(&w, &f, sizeof w);
-    put_word(b, w);
-}
-
 /* Four points, a triangle and a quad; `colours` as Geomview has it, one component for the first
  * face and four for the second. */
 static struct blob blob_make(bool big_endian, bool colours)
@@ -207,25 +189,24 @@ static struct blob blob_make(bool big_endian, bool colours)
     static const float points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0.1f, -2.5f, 1, 1e30f};
     static const uint32_t triangle[] = {3, 1, 2, 3}, quad[] = {4, 0, 1, 2, 3};
     struct blob b = {.big_endian = big_endian};
-    for (size_t i = 0; i < sizeof header - 1; i++)
-        vec_push(&b.bytes, header[i]);
-    put_word(&b, 4);
-    put_word(&b, 2);
-    put_word(&b, 5);
+    blob_text(&b, header);
+    blob_put(&b, 4, 4);
+    blob_put(&b, 2, 4);
+    blob_put(&b, 5, 4);
     for (int i = 0; i < COUNT(points); i++)
-        put_float(&b, points[i]);
+        blob_float(&b, points[i]);
     for (int i = 0; i < COUNT(triangle); i++)
-        put_word(&b, triangle[i]);
+        blob_put(&b, triangle[i], 4);
     if (colours) {
-        put_word(&b, 1);
-        put_word(&b, 7);
+        blob_put(&b, 1, 4);
+        blob_put(&b, 7, 4);
     }
     for (int i = 0; i < COUNT(quad); i++)
-        put_word(&b, quad[i]);
+        blob_put(&b, quad[i], 4);
     if (colours) {
-        put_word(&b, 4);
+        blob_put(&b, 4, 4);
         for (int i = 0; i < 4; i++)
-            put_float(&b, 0.5f);
+            blob_float(&b, 0.5f);
     }
     return b;
 }
