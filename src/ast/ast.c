@@ -218,3 +218,11 @@ size_t ast_count(const struct ast_node *first)
         n++;
     return n;
 }
+
+bool ast_is_damaged(const struct ast_node *node)
+{
+    bool damaged = node->kind == AST_ERROR;
+    for (const struct ast_node *c = node->children; c && !damaged; c = c->next)
+        damaged = c->kind == AST_ERROR;
+    return damaged;
+}

@@ -182,4 +182,7 @@ struct span ast_value_span(const struct ast_node *property);
 
 size_t ast_count(const struct ast_node *first);
 
+/* True when some of the node did not parse: what follows may belong to it. */
+bool ast_is_damaged(const struct ast_node *node);
+
 #endif

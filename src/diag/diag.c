@@ -135,13 +135,19 @@ static void set_framed(struct diag *d, const struct key *k, struct diag_entry *e
             e);
 }
 
+/* Wrong as it stands, whatever the way to it. */
+static bool is_of_text(uint64_t code)
+{
+    return code >= DIAG_UNKNOWN_KIND && code <= DIAG_MISPLACED;
+}
+
 /* The entry that a finding inside frames only repeats, in another round of a loop or another use;
  * NULL when it is new.  After many at one place the ways are not told apart any more. */
 static struct diag_entry *find_repeated(struct diag *d, struct key *k)
 {
     enum { MANY = 1000 };
     struct diag_entry *first = d->frame ? get_framed(d, k) : NULL;
-    if (!d->frame || (first && first->ways++ > MANY))
+    if (!d->frame || (first && (is_of_text(k->code) || first->ways++ > MANY)))
         return first;
     k->sites = diag_frame_sites(d->frame);
     return get_framed(d, k);

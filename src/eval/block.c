@@ -83,6 +83,7 @@ static void take_label(struct eval *e, struct desc_object *o, const struct ast_n
 struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const struct ast_node *node)
 {
     struct desc_object *o = object_new(e, &e->out->arena, kind, node);
+    bool damaged = false; /* statements right behind what did not parse are left over from it */
     for (const struct ast_node *m = node->children; m; m = m->next) {
         if (m->kind == AST_PROPERTY)
             eval_property(e, &e->out->arena, o, m);
@@ -90,7 +91,8 @@ struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const stru
             take_label(e, o, m);
         else
             o->broken = true; /* what it might have held is not missed */
-        if (m->kind != AST_PROPERTY && m->kind != AST_LABEL && m->kind != AST_ERROR)
+        damaged = ast_is_damaged(m) || (damaged && m->kind != AST_PROPERTY);
+        if (m->kind != AST_PROPERTY && m->kind != AST_LABEL && !damaged)
             diag_report(e->diag, DIAG_MISPLACED, m->name_span,
                         "a statement cannot stand in a block of '%s'", schema_kinds[kind].native);
     }
@@ -176,6 +178,8 @@ static void report_unknown_statement(struct eval *e, const struct ast_node *node
 {
     const struct binding *b = scope_find(e, node->name);
     e->out->incomplete = true;
+    if (scope_lost(e, node->name, node->name_span))
+        return;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
                                            "unknown kind '%.*s'", STR_ARG(node->name));
     if (b && b->kind == BINDING_TEMPLATE) {
@@ -349,7 +353,7 @@ void eval_object(struct eval *e, const struct ast_node *node)
 static void report_unknown_template(struct eval *e, const struct ast_node *node,
                                     const struct binding *b)
 {
-    if (b ? b->kind == BINDING_VALUE && b->value.type == VALUE_ERROR : scope_lost(e, node->name))
+    if (b ? b->kind == BINDING_VALUE && b->value.type == VALUE_ERROR : scope_lost(e, node->name, node->name_span))
         return;
     struct diag_entry *entry = diag_report(
         e->diag, DIAG_UNKNOWN_NAME, node->name_span,

@@ -195,7 +195,7 @@ static struct value eval_stray_call(struct eval *e, const struct ast_node *node)
 
 static void report_unknown_function(struct eval *e, const struct ast_node *node)
 {
-    if (scope_lost(e, node->name))
+    if (scope_lost(e, node->name, node->name_span))
         return;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, node->name_span,
                                            "there is no function '%.*s'", STR_ARG(node->name));

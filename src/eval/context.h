@@ -121,6 +121,7 @@ struct eval {
     struct desc_prop *group_material;        /* of the groups around, or NULL */
     struct arena group_arena;                /* properties of the groups around */
     VEC(struct span) damaged; /* texts that did not parse: what they name is not missed */
+    struct map missed;        /* names that are not defined, to where that was told */
     bool names_lost;          /* a file that may define any name was not read */
     unsigned inside;          /* enum inside */
     unsigned groups;          /* groups and uses around, whatever the file */
@@ -170,7 +171,7 @@ struct binding *scope_find(const struct eval *e, struct str name);
 
 /* True when a name without a binding may stand in a text that did not parse or was not read, which
  * was reported. */
-bool scope_lost(const struct eval *e, struct str name);
+bool scope_lost(struct eval *e, struct str name, struct span at);
 
 /* A new binding in the current scope; NULL after reporting that the scope has the name. */
 struct binding *scope_bind(struct eval *e, struct str name, struct span span,

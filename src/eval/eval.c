@@ -134,5 +134,6 @@ bool eval_scene(const struct ast *ast, const struct eval_options *options, struc
     free(e.define_used);
     map_free(&e.ids);
     vec_free(&e.damaged);
+    map_free(&e.missed);
     return diag->errors == errors;
 }

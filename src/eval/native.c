@@ -244,11 +244,6 @@ static const char *body_words(unsigned inside)
 void eval_statement(struct eval *e, const struct ast_node *node)
 {
     const struct rule *r = &rules[node->kind];
-    if (node->kind == AST_PROPERTY) {
-        diag_report(e->diag, DIAG_MISPLACED, node->name_span,
-                    "a property cannot stand here, outside an object");
-        return;
-    }
     if (node->kind == AST_ERROR)
         vec_push(&e->damaged, node->span);
     if (!r->run) /* AST_VERSION says nothing more */
@@ -269,8 +264,15 @@ void eval_statement(struct eval *e, const struct ast_node *node)
 
 void eval_statements(struct eval *e, const struct ast_node *first)
 {
-    for (const struct ast_node *s = first; s && !eval_stopped(e); s = s->next)
-        eval_statement(e, s);
+    bool damaged = false; /* properties right behind what did not parse are left over from it */
+    for (const struct ast_node *s = first; s && !eval_stopped(e); s = s->next) {
+        if (s->kind != AST_PROPERTY)
+            eval_statement(e, s);
+        else if (!damaged)
+            diag_report(e->diag, DIAG_MISPLACED, s->name_span,
+                        "a property cannot stand here, outside an object");
+        damaged = ast_is_damaged(s) || (damaged && s->kind == AST_PROPERTY);
+    }
 }
 
 /* ---- a scene ---- */

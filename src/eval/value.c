@@ -166,7 +166,7 @@ static struct value eval_name(struct eval *e, const struct ast_node *node)
         report_no_value(e, node, b);
         return value_error(node->span);
     }
-    if (scope_lost(e, node->name))
+    if (scope_lost(e, node->name, node->span))
         return value_error(node->span);
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, node->span,
                                            "'%.*s' is not defined", STR_ARG(node->name));
@@ -215,7 +215,7 @@ static struct value eval_construct(struct eval *e, const struct ast_node *node)
     if (named && named->type == VALUE_ERROR)
         return value_error(node->span);
     if (kind == SCHEMA_KINDS) {
-        if (b || !scope_lost(e, node->name))
+        if (b || !scope_lost(e, node->name, node->name_span))
             report_not_constructible(e, node);
         return value_error(node->span);
     }

@@ -80,7 +80,7 @@ static bool begins_item(struct str found)
 }
 
 /* How to write what was probably meant. */
-static void add_advice(const struct parser *p, struct diag_entry *e, struct span span, bool at_end,
+static void add_advice(const struct parser *p, struct diag_entry *e, struct span span,
                        const char *const *expected, size_t n)
 {
     struct str found = srcmap_text(p->diag->sources, span);
@@ -90,9 +90,7 @@ static void add_advice(const struct parser *p, struct diag_entry *e, struct span
         name |= strcmp(expected[i], "name") == 0;
         comma |= strcmp(expected[i], "','") == 0;
     }
-    if (at_end && p->depth > 0)
-        diag_label(e, p->brackets[p->depth - 1], "this is not closed");
-    else if (colon && str_is(found, "="))
+    if (colon && str_is(found, "="))
         diag_note(e, "a property is written 'name: value'");
     else if (comma && begins_item(found) && !on_later_line(p, span))
         diag_note(e, "commas stand between the items of lists, vectors and calls");
@@ -100,15 +98,58 @@ static void add_advice(const struct parser *p, struct diag_entry *e, struct span
         diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
 }
 
+/* The text ends inside brackets. */
+static void report_unclosed(struct parser *p)
+{
+    struct span opening, place;
+    if (!parser_find_unclosed(p, &opening, &place))
+        opening = place = p->brackets[p->depth - 1];
+    struct str bracket = srcmap_text(p->diag->sources, opening);
+    const char *closing = *bracket.at == '{' ? "}" : *bracket.at == '(' ? ")" : "]";
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, place, "expected '%s'; the text ends too early", closing);
+    diag_label(e, opening, "this is not closed");
+    diag_fix(e, place, DIAG_FIX_MAYBE, "%s", closing);
+}
+
+/* Bytes of blanks before the first word of the line. */
+static size_t indentation(const struct parser *p, uint32_t offset)
+{
+    struct str line = srcmap_locate(p->diag->sources, offset).line_text;
+    size_t n = 0;
+    while (n < line.n && (line.at[n] == ' ' || line.at[n] == '\t'))
+        n++;
+    return n;
+}
+
+/* Whether this token only follows from the last error: it is left over from the same line, or closes
+ * what could not be opened there. */
+static bool is_left_over(const struct parser *p, struct span span)
+{
+    if (!p->astray || p->ast->xml)
+        return false;
+    struct str between = srcmap_text(p->diag->sources, (struct span){p->astray, span.begin});
+    if (!between.n || !memchr(between.at, '\n', between.n))
+        return true;
+    return str_is(srcmap_text(p->diag->sources, span), "}") &&
+           indentation(p, span.begin) == indentation(p, p->astray);
+}
+
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n)
 {
-    p->astray = true;
     if (p->stopped || p->feigned)
         return;
     const char *shown[EXPECTED_MOST];
     char words[256], what[80];
     n = summarise(expected, n, shown);
+    if (!n && is_left_over(p, span))
+        return;
+    bool value = n == 1 && strcmp(shown[0], "value") == 0;
+    if (at_end && p->depth > 0 && !p->ast->xml && !value) {
+        report_unclosed(p);
+        return;
+    }
     list_words(words, sizeof words, shown, n);
     struct str text = srcmap_text(p->diag->sources, span);
     bool quote = !at_end && text.n && text.n < 40 && !memchr(text.at, '\n', text.n);
@@ -116,13 +157,14 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
         snprintf(what, sizeof what, "'%.*s'", STR_ARG(text));
     else
         snprintf(what, sizeof what, "the %s", found);
+    p->astray = span.begin;
     bool something_else = n && strcmp(shown[0], "end of file") != 0;
     struct span place = something_else || at_end ? place_of_error(p, span) : span;
     struct diag_entry *e =
         n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
-    add_advice(p, e, span, at_end, shown, n);
+    add_advice(p, e, span, shown, n);
 }
 
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
@@ -156,10 +198,22 @@ void parser_unknown_unit(struct parser *p, struct span span, struct str text)
     diag_note(e, "the units are 'deg' and 'rad', for angles");
 }
 
-void parser_unclosed_tag(struct parser *p, struct span span)
+void xml_unclosed_tag(struct parser *p, uint32_t end)
 {
-    if (!p->stopped)
-        diag_report(p->diag, DIAG_SYNTAX, span, "expected '>' to end the tag");
+    if (!p->stopped) {
+        struct span place = {end, end};
+        struct diag_entry *e =
+            diag_report(p->diag, DIAG_SYNTAX, place, "expected '>' to end the tag");
+        diag_fix(e, place, DIAG_FIX_MAYBE, ">");
+    }
+    xml_lose_tag(p);
+    p->feigned = true;
+}
+
+void xml_nameless_tag(struct parser *p, struct span span)
+{
+    diag_report(p->diag, DIAG_SYNTAX, span, "expected a name behind '</'");
+    xml_lose_tag(p);
     p->feigned = true;
 }
 
@@ -176,6 +230,7 @@ void xml_declaration(struct parser *p, struct span span)
 void xml_stray_less(struct parser *p, struct span span)
 {
     struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, span, "'<' begins no tag here");
+    xml_lose_tag(p);
     diag_fix(e, span, DIAG_FIX_MAYBE, "&lt;");
 }
 

@@ -19,7 +19,8 @@ struct xml_content {
 
 struct open_element {
     struct str name;
-    struct span span;
+    struct span span;  /* `<` and the name */
+    uint32_t text_end; /* of its first text; 0: none came yet */
 };
 
 struct parser {
@@ -38,11 +39,12 @@ struct parser {
     struct span brackets[NESTING_LIMIT]; /* native: the open ones */
     unsigned depth;                      /* native: how many */
     bool member_due;                     /* native: a member of a block may begin */
-    bool astray;                         /* native: after the first syntax error */
+    uint32_t astray; /* native: where the last syntax error was; 0: none yet */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
+    uint32_t lost_in; /* XML: a tag was damaged where so many elements were open; 0: none */
     bool tag_end_due;              /* XML: a `>` to feign */
     bool behind_tag;               /* XML: no text came since the last tag */
     bool feigned;                  /* XML: the token stands for one whose absence was reported */
@@ -108,10 +110,20 @@ struct str xml_attribute_value(struct parser *p, struct span span, struct str sp
 
 /* ---- balance.c: XML tags made a tree, whatever the text holds ---- */
 
-/* Called with each XML token before the grammar sees it; may feign closing tags. */
+/* Called with each XML token before the grammar sees it; may feign closing tags.  XML_SKIPPED: the
+ * grammar does not see it. */
+enum { XML_SKIPPED = -1 };
 int xml_balance(struct parser *p, int token, struct span span, struct str name);
+/* A tag was reported as damaged, so its counterpart may not fit. */
+void xml_lose_tag(struct parser *p);
 /* A closing tag to feign, if one is due. */
 bool xml_close_due(struct parser *p);
+
+/* ---- unclosed.c ---- */
+
+/* The bracket that is not closed, and where its closing one belongs, when the text ends inside
+ * brackets; false when the indentation tells nothing. */
+bool parser_find_unclosed(const struct parser *p, struct span *opening, struct span *place);
 
 /* ---- mistakes.c: what both scanners and the grammar report ---- */
 
@@ -123,7 +135,9 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message);
 void parser_stray(struct parser *p, struct span span, struct str text);
 void parser_unknown_unit(struct parser *p, struct span span, struct str text);
-void parser_unclosed_tag(struct parser *p, struct span span);
+/* A tag without its `>`, which belongs at `end`. */
+void xml_unclosed_tag(struct parser *p, uint32_t end);
+void xml_nameless_tag(struct parser *p, struct span span);
 void xml_declaration(struct parser *p, struct span span);
 void xml_stray_less(struct parser *p, struct span span);
 void xml_stray_ampersand(struct parser *p, struct span span);

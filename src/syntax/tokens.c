@@ -55,16 +55,19 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     }
     if (xml_close_due(p))
         return TOKEN_XML_CLOSE;
-    p->feigned = false;
     int token;
-    do /* blanks around the root element mean nothing, nor do those right behind a tag */
-        token = xml_scan(value, span, p->scanner);
-    while (token == TOKEN_XML_TEXT && (!p->open.n || p->behind_tag) && !str_trim(value->text).n);
-    p->behind_tag = token != TOKEN_XML_TEXT;
-    p->feigned |= p->tag_end_due;
-    if (token == TOKEN_XML_TEXT && !p->open.n)
-        *span = span_of_trimmed(*span, value->text);
-    return xml_balance(p, token, *span, value->text);
+    do {
+        p->feigned = false;
+        do /* blanks around the root element mean nothing, nor do those right behind a tag */
+            token = xml_scan(value, span, p->scanner);
+        while (token == TOKEN_XML_TEXT && (!p->open.n || p->behind_tag) && !str_trim(value->text).n);
+        p->behind_tag = token != TOKEN_XML_TEXT;
+        p->feigned |= p->tag_end_due;
+        if (token == TOKEN_XML_TEXT && !p->open.n)
+            *span = span_of_trimmed(*span, value->text);
+        token = xml_balance(p, token, *span, value->text);
+    } while (token == XML_SKIPPED);
+    return token;
 }
 
 static int next_native(SCENE_STYPE *value, struct span *span, struct parser *p)

@@ -1,0 +1,126 @@
+/* Which bracket of a native text is not closed, told by how its lines are indented: closing brackets
+ * that begin a line stand as far in as the line of their opening ones. */
+#include "config.h"
+
+#include "syntax/parser.h"
+
+#include <string.h>
+
+struct opening {
+    uint32_t at;     /* offset in the text */
+    uint32_t indent; /* of its line */
+};
+
+struct reading {
+    const char *text;
+    uint32_t n, at, indent;
+    bool line_begins; /* nothing but blanks stands before in the line */
+    VEC(struct opening) open;
+};
+
+static bool starts(const struct reading *r, const char *mark)
+{
+    return strncmp(r->text + r->at, mark, strlen(mark)) == 0;
+}
+
+static void skip_to(struct reading *r, const char *mark, size_t from)
+{
+    const char *end = strstr(r->text + r->at + from, mark);
+    r->at = end ? (uint32_t)(end - r->text) : r->n;
+}
+
+/* Strings end on their line. */
+static void skip_string(struct reading *r)
+{
+    r->at++;
+    while (r->at < r->n && r->text[r->at] != '"' && r->text[r->at] != '\n')
+        r->at += r->text[r->at] == '\\' && r->at + 1 < r->n ? 2 : 1;
+    r->at += r->at < r->n && r->text[r->at] == '"';
+}
+
+static void begin_line(struct reading *r)
+{
+    r->at++;
+    r->indent = (uint32_t)strspn(r->text + r->at, " \t");
+    r->line_begins = true;
+}
+
+/* The bracket that this closing one closes; false when the indentation says that it cannot be. */
+static bool close_bracket(struct reading *r)
+{
+    if (!r->open.n)
+        return true;
+    const struct opening *top = &r->open.at[r->open.n - 1];
+    if (r->line_begins && r->indent < top->indent)
+        return false;
+    r->open.n--;
+    return true;
+}
+
+/* Reads up to the closing bracket that stands too far out, or to the end. */
+static void read_brackets(struct reading *r)
+{
+    while (r->at < r->n) {
+        char c = r->text[r->at];
+        if (c == '\n') {
+            begin_line(r);
+            continue;
+        }
+        if (starts(r, "//")) {
+            skip_to(r, "\n", 2);
+            continue;
+        }
+        if (starts(r, "/*")) {
+            skip_to(r, "*/", 2);
+            r->at += r->at < r->n ? 2 : 0;
+            continue;
+        }
+        if (c == '"') {
+            skip_string(r);
+            continue;
+        }
+        if (strchr("([{", c))
+            vec_push(&r->open, (struct opening){r->at, r->indent});
+        else if (strchr(")]}", c) && !close_bracket(r))
+            return;
+        r->line_begins &= c == ' ' || c == '\t' || c == '\r';
+        r->at++;
+    }
+}
+
+static bool is_blank_line(const char *line)
+{
+    line += strspn(line, " \t\r");
+    return *line == '\n' || *line == 0;
+}
+
+/* Where the bracket's lines end: before the first one that is not indented more than its own. */
+static uint32_t end_of_body(const struct reading *r, const struct opening *o)
+{
+    uint32_t end = o->at + (uint32_t)strcspn(r->text + o->at, "\n");
+    for (uint32_t at = end; at < r->n; at += (uint32_t)strcspn(r->text + at, "\n")) {
+        const char *line = r->text + ++at;
+        if (is_blank_line(line))
+            continue;
+        if (strspn(line, " \t") <= o->indent)
+            break;
+        end = at + (uint32_t)strcspn(line, "\n");
+    }
+    return end;
+}
+
+bool parser_find_unclosed(const struct parser *p, struct span *opening, struct span *place)
+{
+    struct reading r = {.text = p->source->text, .n = p->source->n, .line_begins = true};
+    r.indent = (uint32_t)strspn(r.text, " \t");
+    read_brackets(&r);
+    bool found = r.open.n > 0;
+    if (found) {
+        const struct opening *o = &r.open.at[r.open.n - 1];
+        uint32_t base = p->source->base, end = end_of_body(&r, o);
+        *opening = (struct span){base + o->at, base + o->at + 1};
+        *place = (struct span){base + end, base + end};
+    }
+    vec_free(&r.open);
+    return found;
+}
