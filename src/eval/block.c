@@ -178,7 +178,7 @@ static void report_unknown_statement(struct eval *e, const struct ast_node *node
 {
     const struct binding *b = scope_find(e, node->name);
     e->out->incomplete = true;
-    if (scope_lost(e, node->name, node->name_span))
+    if (scope_told(e, node->name, node->name_span))
         return;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
                                            "unknown kind '%.*s'", STR_ARG(node->name));

@@ -169,8 +169,10 @@ void scope_close(struct eval *e, struct scope *outer);
 /* The innermost binding of a name; NULL: none. */
 struct binding *scope_find(const struct eval *e, struct str name);
 
-/* True when a name without a binding may stand in a text that did not parse or was not read, which
- * was reported. */
+/* True when it was told that the name at this place is unknown: at another place, or it may stand in
+ * what did not parse. */
+bool scope_told(struct eval *e, struct str name, struct span at);
+/* The same of a name that may be defined in a file that was not read. */
 bool scope_lost(struct eval *e, struct str name, struct span at);
 
 /* A new binding in the current scope; NULL after reporting that the scope has the name. */

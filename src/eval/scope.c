@@ -58,16 +58,21 @@ static bool holds_name(struct str text, struct str name)
     return false;
 }
 
-bool scope_lost(struct eval *e, struct str name, struct span at)
+bool scope_told(struct eval *e, struct str name, struct span at)
 {
     enum { MOST = 20 }; /* as many damaged texts are searched */
     for (size_t i = 0; i < e->damaged.n && i < MOST; i++)
         if (holds_name(srcmap_text(e->diag->sources, e->damaged.at[i]), name))
             return true;
     uintptr_t first = (uintptr_t)map_get(&e->missed, name);
-    if (!first && !e->names_lost)
+    if (!first)
         map_set(&e->missed, name, (void *)(uintptr_t)at.begin);
-    return e->names_lost || (first && first != at.begin);
+    return first && first != at.begin;
+}
+
+bool scope_lost(struct eval *e, struct str name, struct span at)
+{
+    return e->names_lost || scope_told(e, name, at);
 }
 
 void scope_add(struct scope *s, struct binding *b)
