@@ -23,8 +23,10 @@ static void examine(struct frontend *f)
         lint_run(&l, LINT_DESCRIPTION);
         if (lower_scene(&f->desc, &f->sources, &lowered, &f->diag)) {
             l.lowered = &lowered;
+            l.survey = survey_new(&f->desc, &lowered);
             lint_run(&l, LINT_SCENE);
             lint_run(&l, LINT_RAYS);
+            survey_free(l.survey);
         }
         lower_free(&lowered);
     }

@@ -5,7 +5,7 @@
 #include "ast/ast.h"
 #include "diag/diag.h"
 #include "eval/desc.h"
-#include "lower/lower.h"
+#include "lint/survey.h"
 
 /* What a check needs of the scene, each more than the one before. */
 enum lint_stage {
@@ -21,6 +21,7 @@ struct lint {
     const struct ast *ast;
     const struct desc *desc;
     const struct lowered *lowered;
+    struct survey *survey; /* of the lowered scene */
     struct srcmap *sources;
     struct diag *diag;
 };

@@ -128,7 +128,7 @@ const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_v
     const char *path = path_of(l, file);
     uintptr_t known = (uintptr_t)map_get(&l->meshes, str_of(path));
     if (!known) {
-        struct lower_mesh m = {path, load_mesh(l, file, path)};
+        struct lower_mesh m = {path, load_mesh(l, file, path), file, l->diag->frame};
         vec_push(&l->out->meshes, m);
         known = l->out->meshes.n;
         map_set(&l->meshes, str_of(path), (void *)known);

@@ -11,8 +11,10 @@
 
 /* A mesh file of the scene, for whoever wants to say more about it. */
 struct lower_mesh {
-    const char *path; /* in the scene's arena */
-    struct mesh *mesh; /* NULL: it could not be read */
+    const char *path;               /* in the scene's arena */
+    struct mesh *mesh;              /* NULL: it could not be read */
+    const struct desc_value *asked; /* who named it first */
+    const struct diag_frame *frame; /* and how evaluation came to that */
 };
 
 struct lowered {

@@ -8,6 +8,7 @@
 /* A mesh file in the proportions that surfaces use it in. */
 struct mesh_model {
     const struct mesh *mesh;
+    uint32_t file;              /* number of the mesh file */
     struct vec3 ratio;          /* of the model's coordinates to the file's */
     size_t uses;                /* by surfaces that may be instances */
     uint32_t prototype;         /* in the scene's geometry; 0: there is none so far */

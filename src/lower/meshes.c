@@ -45,7 +45,8 @@ static struct mesh_model *model_of(struct lowering *l, const struct desc_object 
     struct mesh_model *model = map_get(&l->models, str_of(key));
     if (!model) {
         model = arena_zalloc(arena, 1, sizeof *model);
-        *model = (struct mesh_model){.mesh = file->mesh, .ratio = ratio};
+        *model = (struct mesh_model){
+            .mesh = file->mesh, .file = (uint32_t)(file - l->out->meshes.at), .ratio = ratio};
         map_set(&l->models, str_of(key), model);
     }
     return model;
@@ -303,6 +304,7 @@ bool lower_mesh(struct lowering *l, const struct desc_object *o, struct surface 
         return false;
     if (is_smooth(o))
         find_normals(l, model);
+    s->mesh_file = model->file;
     s->flip = desc_number(o, PROP_FLIP_NORMALS) != 0;
     bool shared = is_shared(model) && !l->copied && !desc_get(o, PROP_SHOW_NORMALS);
     if (shared ? !lower_instance(l, o, model, s) : !lower_copy(l, o, model, s))

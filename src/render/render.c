@@ -207,12 +207,17 @@ static void find_range(struct job *job)
     free(job->ranges);
 }
 
+static struct lens lens_for(const struct camera *c, const struct render_options *o)
+{
+    return o->whole_view ? lens_of(c, c->width, c->height) : lens_of(c, o->width, o->height);
+}
+
 static void tracer_init(struct tracer *t, const struct scene *scene,
                         const struct render_options *options)
 {
     *t = (struct tracer){.scene = scene,
                          .options = options,
-                         .lens = lens_of(&scene->camera, options->width, options->height),
+                         .lens = lens_for(&scene->camera, options),
                          .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps)};
     t->skips = !options->no_skip && !options->brute_force;
     t->bundles = bundle_kernels_of(options->isa);

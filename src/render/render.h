@@ -19,6 +19,7 @@ struct render_progress {
 
 struct render_options {
     uint32_t width, height; /* of the whole picture */
+    bool whole_view; /* it shows what the scene's own resolution does, whatever its proportions */
     struct {
         uint32_t x0, y0, x1, y1;
     } crop;        /* pixels, top left origin, x1 and y1 outside */

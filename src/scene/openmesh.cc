@@ -66,7 +66,9 @@ class analysis {
         struct vec3 unused;
         bool flat =
             collapsed || !mesh_face_normal(points_[v[0]], points_[v[1]], points_[v[2]], &unused);
-        degenerate_ += flat;
+        if (flat && degenerate_++ == 0)
+            first_degenerate_ = face_;
+        face_++;
         if (collapsed)
             return;
         // A face of zero area still closes the seam between its neighbours.
@@ -79,11 +81,15 @@ class analysis {
     struct mesh_report report()
     {
         struct mesh_report r = {};
-        r.boundary_edges = boundary_edges();
+        r.boundary_edges = boundary_edges(r.first_boundary);
         r.non_manifold_faces = non_manifold_;
         r.degenerate_faces = degenerate_;
         r.unused_vertices = static_cast<size_t>(std::count(used_.begin(), used_.end(), false));
         r.volume = volume_;
+        r.first_non_manifold = first_non_manifold_;
+        r.first_degenerate = first_degenerate_;
+        r.first_unused =
+            static_cast<size_t>(std::find(used_.begin(), used_.end(), false) - used_.begin());
         return r;
     }
 
@@ -125,19 +131,23 @@ class analysis {
         // As OpenMesh's own importer does it: vertices of its own, hence neighbours with none.
         vertex own[3] = {mesh_.new_vertex(), mesh_.new_vertex(), mesh_.new_vertex()};
         mesh_.add_face(own[0], own[1], own[2]);
-        non_manifold_++;
+        if (non_manifold_++ == 0)
+            first_non_manifold_ = face_ - 1;
     }
 
     // Counted on the file's vertices: the half-edge structure has a boundary wherever it had to
     // duplicate some.
-    size_t boundary_edges()
+    size_t boundary_edges(uint32_t first[2])
     {
         std::sort(edges_.begin(), edges_.end());
         size_t lonely = 0, n = edges_.size();
         for (size_t i = 0, next = 0; i < n; i = next) {
             while (next < n && edges_[next] == edges_[i])
                 next++;
-            lonely += next - i == 1;
+            if (next - i == 1 && lonely++ == 0) {
+                first[0] = static_cast<uint32_t>(edges_[i] >> 32);
+                first[1] = static_cast<uint32_t>(edges_[i]);
+            }
         }
         return lonely;
     }
@@ -148,6 +158,7 @@ class analysis {
     std::vector<bool> used_;
     std::vector<uint64_t> edges_;
     size_t non_manifold_ = 0, degenerate_ = 0;
+    size_t face_ = 0, first_non_manifold_ = 0, first_degenerate_ = 0;
     double volume_ = 0;
 };
 

@@ -22,6 +22,10 @@ struct mesh_report {
     size_t degenerate_faces;   /* repeated corner or zero area */
     size_t unused_vertices;    /* in no face */
     double volume;             /* signed; negative: inside out (closed meshes) */
+    /* Of the first of each, where there are any: */
+    size_t first_non_manifold, first_degenerate; /* faces */
+    size_t first_unused;                         /* vertex */
+    uint32_t first_boundary[2];                  /* vertices of the edge, the lower one first */
 };
 
 /* Returns NULL or a static reason; prints nothing, throws nothing.  Every corner must be below

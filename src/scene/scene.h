@@ -82,6 +82,7 @@ struct surface {
     const struct vec2 *uvs;                        /* three a primitive, or NULL */
     struct span span;                              /* where the scene text says it */
     uint32_t described;                            /* its number among the description's surfaces */
+    uint32_t mesh_file;                            /* mesh: its number in struct lowered */
 };
 
 enum light_kind { LIGHT_POINT, LIGHT_AREA, LIGHT_SUN };

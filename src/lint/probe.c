@@ -1,0 +1,60 @@
+/* A small picture of the scene. */
+#include "config.h"
+
+#include "lint/checks.h"
+#include "lint/frustum.h"
+#include "lint/survey.h"
+#include "render/render.h"
+
+enum { PROBE = 16 }; /* pixels across and down */
+
+static bool is_black(const struct lint *l, uint32_t grid)
+{
+    const struct scene *s = &l->lowered->scene;
+    struct picture *p = picture_new(PROBE, PROBE, false);
+    struct render_stats stats;
+    struct render_options o = {.width = PROBE,
+                               .height = PROBE,
+                               .crop = {0, 0, PROBE, PROBE},
+                               .whole_view = true,
+                               .grid = grid,
+                               .depth = s->depth,
+                               .threads = 1,
+                               .isa = isa_best()};
+    bool black = true;
+    p->encoding = s->model == SCENE_CLASSIC ? ENCODING_PLAIN
+                  : s->linear               ? ENCODING_LINEAR
+                                            : ENCODING_SRGB;
+    render_scene(s, &o, p, &stats);
+    for (int i = 0; i < 3 * PROBE * PROBE; i++)
+        black &= p->bytes[i] == 0;
+    picture_free(p);
+    return black;
+}
+
+static bool is_anything_in_view(const struct lint *l)
+{
+    const struct scene *s = &l->lowered->scene;
+    const struct box *boxes = survey_boxes(l->survey);
+    struct frustum f = frustum_of(&s->camera);
+    for (size_t i = 0; i < s->surfaces.n; i++)
+        if (s->surfaces.at[i].prim_count && !frustum_beyond(&f, boxes[i]))
+            return true;
+    return false;
+}
+
+/* Small things are missed by one sample a pixel: what is black by that is looked at more closely.
+ */
+void lint_black_picture(const struct lint *l)
+{
+    const struct desc *d = l->desc;
+    if (!d->surfaces.n || !d->lights.n || !is_black(l, 1) || !is_black(l, PROBE))
+        return;
+    struct diag_entry *e =
+        diag_report(l->diag, DIAG_BLACK_PICTURE, d->camera->span, "the picture is black");
+    if (!is_anything_in_view(l))
+        diag_note(e, "no surface is in the view: look at where the camera points");
+    else
+        diag_note(e, "no light arrives on what is in the view: look at where the lights are and "
+                     "what stands between");
+}
