@@ -411,7 +411,7 @@ static const struct {
     size_t point_count, face_count;
     struct vec3 points[LIMIT];
     struct triangle_corners faces[LIMIT];
-    struct mesh_report wanted; /* boundary, non-manifold, degenerate, unused, volume */
+    struct mesh_report wanted; /* boundary, non-manifold, degenerate, unused, volume, first */
 } analyses[] = {
 #define CORNER                       \
     {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, \
@@ -425,49 +425,59 @@ static const struct {
             0, 3, 2                        \
         }                                  \
     }
-    {"nothing", 0, 0, {{0, 0, 0}}, {{{0}}}, {0, 0, 0, 0, 0}},
-    {"tetrahedron", 4, 4, {CORNER}, {TETRAHEDRON}, {0, 0, 0, 0, 1.0 / 6}},
+    {"nothing", 0, 0, {{0, 0, 0}}, {{{0}}}, {0, 0, 0, 0, 0, 0, 0, 0, {0, 0}}},
+    {"tetrahedron", 4, 4, {CORNER}, {TETRAHEDRON}, {0, 0, 0, 0, 1.0 / 6, 0, 0, 0, {0, 0}}},
     {"inside out",
      4,
      4,
      {CORNER},
      {{{0, 1, 2}}, {{0, 3, 1}}, {{1, 3, 2}}, {{0, 2, 3}}},
-     {0, 0, 0, 0, -1.0 / 6}},
-    {"open", 4, 3, {CORNER}, {TETRAHEDRON}, {3, 0, 0, 0, NAN}},
-    {"unused vertices", 6, 4, {CORNER, {1, 1, 1}, {2, 2, 2}}, {TETRAHEDRON}, {0, 0, 0, 2, 1.0 / 6}},
+     {0, 0, 0, 0, -1.0 / 6, 0, 0, 0, {0, 0}}},
+    {"open", 4, 3, {CORNER}, {TETRAHEDRON}, {3, 0, 0, 0, NAN, 0, 0, 0, {0, 2}}},
+    {"unused vertices",
+     6,
+     4,
+     {CORNER, {1, 1, 1}, {2, 2, 2}},
+     {TETRAHEDRON},
+     {0, 0, 0, 2, 1.0 / 6, 0, 0, 4, {0, 0}}},
     {"three faces at an edge",
      5,
      3,
      {CORNER, {0, -1, 0}},
      {{{0, 1, 2}}, {{0, 1, 3}}, {{0, 1, 4}}},
-     {6, 2, 0, 0, NAN}},
+     {6, 2, 0, 0, NAN, 1, 0, 0, {0, 2}}},
     {"tetrahedra at a vertex",
      7,
      8,
      {CORNER, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
      {TETRAHEDRON, {{0, 4, 5}}, {{0, 6, 4}}, {{4, 6, 5}}, {{0, 5, 6}}},
-     {0, 3, 0, 0, NAN}},
+     {0, 3, 0, 0, NAN, 4, 0, 0, {0, 0}}},
     {"tetrahedra at an edge",
      6,
      8,
      {CORNER, {0, -1, 0}, {0, 0, -1}},
      {TETRAHEDRON, {{0, 4, 1}}, {{0, 1, 5}}, {{1, 4, 5}}, {{0, 5, 4}}},
-     {0, 4, 0, 0, NAN}},
-    {"turned neighbour", 4, 2, {CORNER}, {{{0, 1, 2}}, {{0, 1, 3}}}, {4, 1, 0, 0, NAN}},
-    {"face twice", 3, 2, {CORNER}, {{{0, 1, 2}}, {{0, 1, 2}}}, {0, 1, 0, 0, 0}},
-    {"leaf", 3, 2, {CORNER}, {{{0, 1, 2}}, {{0, 2, 1}}}, {0, 0, 0, 0, 0}},
+     {0, 4, 0, 0, NAN, 4, 0, 0, {0, 0}}},
+    {"turned neighbour",
+     4,
+     2,
+     {CORNER},
+     {{{0, 1, 2}}, {{0, 1, 3}}},
+     {4, 1, 0, 0, NAN, 1, 0, 0, {0, 2}}},
+    {"face twice", 3, 2, {CORNER}, {{{0, 1, 2}}, {{0, 1, 2}}}, {0, 1, 0, 0, 0, 1, 0, 0, {0, 0}}},
+    {"leaf", 3, 2, {CORNER}, {{{0, 1, 2}}, {{0, 2, 1}}}, {0, 0, 0, 0, 0, 0, 0, 0, {0, 0}}},
     {"repeated corners",
      4,
      6,
      {CORNER},
      {TETRAHEDRON, {{0, 0, 1}}, {{2, 2, 2}}},
-     {0, 0, 2, 0, 1.0 / 6}},
+     {0, 0, 2, 0, 1.0 / 6, 0, 4, 0, {0, 0}}},
     {"flat face closes a seam",
      5,
      3,
      {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0, 1, 0}},
      {{{0, 2, 3}}, {{2, 1, 3}}, {{0, 1, 2}}},
-     {3, 0, 1, 1, 0}},
+     {3, 0, 1, 1, 0, 0, 2, 4, {0, 1}}},
 };
 
 /* Where file descriptor 2 led, while it leads to a file. */
@@ -503,6 +513,12 @@ static void check_report(const struct mesh_report *got, const struct mesh_report
     ck_assert_uint_eq(got->non_manifold_faces, wanted->non_manifold_faces);
     ck_assert_uint_eq(got->degenerate_faces, wanted->degenerate_faces);
     ck_assert_uint_eq(got->unused_vertices, wanted->unused_vertices);
+    ck_assert_uint_eq(got->first_non_manifold, wanted->first_non_manifold);
+    ck_assert_uint_eq(got->first_degenerate, wanted->first_degenerate);
+    if (wanted->unused_vertices)
+        ck_assert_uint_eq(got->first_unused, wanted->first_unused);
+    ck_assert_uint_eq(got->first_boundary[0], wanted->first_boundary[0]);
+    ck_assert_uint_eq(got->first_boundary[1], wanted->first_boundary[1]);
     if (!isnan(wanted->volume))
         ck_assert_msg(fabs(got->volume - wanted->volume) < 1e-15, "volume %g", got->volume);
 }
