@@ -13,6 +13,7 @@ int command_uv(const struct options *o);
 int command_convert(const struct options *o);
 int command_doc(const struct options *o);
 int command_lint(const struct options *o);
+int command_lsp(const struct options *o);
 int command_explain(const struct options *o);
 
 /* The scene's name with the suffix of a picture, in the current folder; the caller frees it. */

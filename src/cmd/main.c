@@ -40,6 +40,8 @@ static const struct command {
      "print scenes in canonical layout, or bring them into it"},
     {"info", FOR_INFO, command_info, "info SCENE [options]",
      "tell what a scene is made of, which files it needs, what is behind a pixel"},
+    {"lsp", FOR_LSP, command_lsp, "lsp [options]",
+     "serve an editor: the language server protocol on standard input and output"},
     {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
      "make a UV list of a VRML 2.0 file's texture coordinates"},
     {"doc", FOR_DOC, command_doc, "doc [KIND[.PROPERTY]]",

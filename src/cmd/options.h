@@ -21,7 +21,8 @@ enum {
     FOR_INFO = 128,
     FOR_LINT = 256,
     FOR_EXPLAIN = 512,
-    FOR_ALL = 1023
+    FOR_LSP = 1024,
+    FOR_ALL = 2047
 };
 
 /* Those that read a scene, and those that report on what they read. */

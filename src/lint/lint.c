@@ -37,6 +37,15 @@ void lint_run(const struct lint *l, enum lint_stage stage)
             checks[i].run(l);
 }
 
+enum lint_stage lint_stage_of(enum diag_code code)
+{
+    for (int i = 0; i < CHECKS; i++)
+        for (int k = 0; checks[i].codes[k]; k++)
+            if (checks[i].codes[k] == code)
+                return checks[i].stage;
+    return LINT_STAGES;
+}
+
 const char *lint_needs(enum diag_code code)
 {
     static const char *const words[LINT_STAGES] = {
@@ -45,11 +54,8 @@ const char *lint_needs(enum diag_code code)
         [LINT_SCENE] = "lowers the scene: textures and meshes are read",
         [LINT_RAYS] = "lowers the scene and traces some rays",
     };
-    for (int i = 0; i < CHECKS; i++)
-        for (int k = 0; checks[i].codes[k]; k++)
-            if (checks[i].codes[k] == code)
-                return words[checks[i].stage];
-    return NULL;
+    enum lint_stage stage = lint_stage_of(code);
+    return stage == LINT_STAGES ? NULL : words[stage];
 }
 
 const struct lint_threshold *lint_threshold_of(enum diag_code code, unsigned n)

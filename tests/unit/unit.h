@@ -16,6 +16,7 @@ Suite *kernels_suite(void);
 Suite *language_suite(void);
 Suite *instance_suite(void);
 Suite *lower_suite(void);
+Suite *lsp_suite(void);
 Suite *mesh_suite(void);
 Suite *print_suite(void);
 Suite *modern_suite(void);
