@@ -139,11 +139,13 @@ static struct span head_of(const struct hover *h, const struct ast_node *n)
     return head;
 }
 
-/* A property by its name, or by a value that is no object of its own. */
+/* A property by its name, or by a value that is no object of its own; a plain one has no node. */
 static bool is_about_prop(const struct hover *h, const struct locate_path *path, size_t i)
 {
-    bool value = i + 1 < path->nodes.n && path->nodes.at[i + 1]->kind != AST_CONSTRUCT;
-    return value || locate_touches(path->nodes.at[i]->name_span, h->where->at);
+    const struct ast_node *n = path->nodes.at[i];
+    bool value =
+        i + 1 < path->nodes.n ? path->nodes.at[i + 1]->kind != AST_CONSTRUCT : !n->children;
+    return value || locate_touches(n->name_span, h->where->at);
 }
 
 static bool hover_node(struct hover *h, const struct locate_path *path, size_t i)
