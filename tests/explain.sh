@@ -15,6 +15,12 @@ complain()
 work=$(mktemp -d "${TMPDIR:-/tmp}/wrt-explain.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 
+# The files that examples name.
+printf 'wrt 1\nmaterial gold = lambert { diffuse: 0.5 }\n' >"$work/metals.wrt"
+for file in wood.png Wood.png stone.png 'textures\wood.png'; do
+    echo picture >"$work/$file"
+done
+
 # example CODE wrong|right: the indented lines of that part, as a scene; false where it is none.
 example()
 {
@@ -27,8 +33,8 @@ example()
         grep -q '^wrt \|^model ' "$work/part" || echo 'wrt 1
 model modern'
         grep -q '^camera\|^model' "$work/part" ||
-            echo 'camera { eye: (0, 1, -4)  look_at: 0  fov: 54  resolution: (8, 8) }'
-        cat "$work/part"
+            echo 'camera { eye: (0, 1, -4)  look_at: 0  fov: 54deg  resolution: (8, 8) }'
+        sed "s|/home/eva/scenes|$work|" "$work/part"
     } >"$work/$2.wrt"
 }
 

@@ -3,7 +3,9 @@
 #include "base/file.h"
 
 #include "base/mem.h"
+#include "base/str.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -72,6 +74,29 @@ bool file_readable(const char *path, const char **reason)
     else if (S_ISDIR(st.st_mode))
         *reason = strerror(EISDIR);
     return *reason == NULL;
+}
+
+static char *join(const char *folder, size_t n, const char *name)
+{
+    size_t length = strlen(name);
+    char *path = mem_alloc(n + length + 1, 1);
+    memcpy(path, folder, n);
+    memcpy(path + n, name, length + 1);
+    return path;
+}
+
+char *file_other_case(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    char *folder = slash ? join(path, (size_t)(name - path), "") : NULL, *found = NULL;
+    DIR *d = opendir(folder ? folder : ".");
+    for (const struct dirent *e; d && !found && (e = readdir(d));)
+        if (strcmp(e->d_name, name) != 0 && str_equal_nocase(str_of(e->d_name), str_of(name)))
+            found = join(path, (size_t)(name - path), e->d_name);
+    if (d)
+        closedir(d);
+    free(folder);
+    return found;
 }
 
 static const char *write_all(int fd, const char *p, size_t n)

@@ -17,6 +17,10 @@ const char *file_read(const char *path, char **data, size_t *n);
 /* True when path names a regular file that can be read; *reason says why not. */
 bool file_readable(const char *path, const char **reason);
 
+/* The name of another file in the folder of `path` that differs from it only in the case of letters,
+ * with the folder as spelt in `path`; NULL when there is none.  Caller frees. */
+char *file_other_case(const char *path);
+
 /* Writes n bytes so that path holds either its old content or all of the new: a temporary file
  * beside it is renamed.  A path that exists and is no regular file (a device, a pipe), and "-" for
  * standard output, is written directly.  Returns NULL or a reason. */

@@ -11,6 +11,12 @@
 
 #include <string.h>
 
+/* Warnings that are told as errors keep nothing from being looked for. */
+static bool is_sound(const struct frontend *f)
+{
+    return f->diag.errors == f->diag.raised;
+}
+
 /* Everything that can be found in a scene that was loaded. */
 static void examine(struct frontend *f)
 {
@@ -18,10 +24,11 @@ static void examine(struct frontend *f)
     struct lowered lowered;
     if (f->ast.statements)
         lint_run(&l, LINT_TEXT);
-    if (f->diag.errors == 0) {
+    if (is_sound(f)) {
         l.desc = &f->desc;
         lint_run(&l, LINT_DESCRIPTION);
-        if (lower_scene(&f->desc, &f->sources, &lowered, &f->diag)) {
+        lower_scene(&f->desc, &f->sources, &lowered, &f->diag);
+        if (is_sound(f)) {
             l.lowered = &lowered;
             l.survey = survey_new(&f->desc, &lowered);
             lint_run(&l, LINT_SCENE);
@@ -30,7 +37,7 @@ static void examine(struct frontend *f)
         }
         lower_free(&lowered);
     }
-    if (f->diag.errors == 0) /* else what they allow may not have been looked for */
+    if (is_sound(f)) /* else what they allow may not have been looked for */
         diag_report_unused_allows(&f->diag);
 }
 

@@ -107,9 +107,11 @@ static struct diag_entry *take_entry(struct diag *d, enum diag_level level)
     return e;
 }
 
-static void count(struct diag *d, enum diag_level level, enum diag_exit status)
+static void count(struct diag *d, enum diag_code code, enum diag_level level)
 {
+    enum diag_exit status = diag_rules[code].exit;
     d->errors += level == DIAG_ERROR;
+    d->raised += level == DIAG_ERROR && diag_rules[code].level != DIAG_ERROR;
     d->warnings += level == DIAG_WARNING;
     if (level == DIAG_ERROR && status == DIAG_EXIT_OK)
         status = DIAG_EXIT_INPUT;
@@ -171,7 +173,7 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
     enum diag_level level;
     if (!diag_level_here(d, code, span, &level))
         return spare_entry(d);
-    count(d, level, diag_rules[code].exit);
+    count(d, code, level);
     struct diag_entry *first = find_repeated(d, &key);
     if (first) {
         first->repeats++;

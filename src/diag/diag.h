@@ -163,6 +163,7 @@ struct diag {
     size_t kept[2];                   /* entries: errors, others */
     size_t dropped;                   /* errors */
     size_t errors, warnings;          /* all, dropped ones too */
+    size_t raised;                    /* errors that are warnings or notes by nature */
     enum diag_exit exit;              /* what the errors so far ask for: INPUT wins over RESOURCE */
     struct diag_entry spare;          /* takes what is dropped */
 };

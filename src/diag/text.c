@@ -120,7 +120,9 @@ static void put_fixits(FILE *out, const struct diag_entry *e, const struct locat
 {
     for (size_t i = 0; i < e->fixits.n; i++) {
         const struct diag_fixit *f = &e->fixits.at[i];
-        if (f->span.begin < at->line_base + w.begin || f->span.begin > at->line_base + w.end)
+        bool shows = strcspn(f->text, "\n") > 0; /* what only goes away does not */
+        if (!shows || f->span.begin < at->line_base + w.begin ||
+            f->span.begin > at->line_base + w.end)
             continue;
         fprintf(out, "      | %s", w.begin ? "   " : "");
         put_columns(out, at->line_text, w.begin, f->span.begin - at->line_base, 0, ' ');

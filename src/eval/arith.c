@@ -182,6 +182,7 @@ static struct value compare(struct eval *e, enum ast_operator op, const struct v
     enum equality equal = equal_values(e, a, b, span);
     if (equal == INCOMPARABLE)
         return report_operands(e, op, a, b, span);
+    report_float_comparison(e, a, b, span);
     return (struct value){.type = VALUE_BOOL, .boolean = (equal == EQUAL) == (op == AST_EQUAL)};
 }
 

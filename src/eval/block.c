@@ -47,6 +47,7 @@ static bool eval_property_value(struct eval *e, enum schema_prop_id id,
     if (node && schema_props[id].type == TYPE_WORD && node->kind == AST_NAME)
         return eval_word(e, id, node, out);
     struct value v = node ? eval_value(e, node) : plain_value(e, property);
+    report_style(e, id, property, &v);
     return value_convert(e, id, &v, out);
 }
 

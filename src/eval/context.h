@@ -234,6 +234,13 @@ void report_unknown_kind(struct eval *e, enum schema_group group, struct str nam
 void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word, struct span span,
                          bool xml);
 
+/* Values that are right and yet look like a mistake; nothing unless findings of this rule are
+ * wanted. */
+void report_style(struct eval *e, enum schema_prop_id id, const struct ast_node *property,
+                  const struct value *v);
+void report_float_comparison(struct eval *e, const struct value *a, const struct value *b,
+                             struct span span);
+
 /* ---- xml.c, leaf.c ---- */
 
 void eval_xml(struct eval *e, const struct ast_node *root);

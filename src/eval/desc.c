@@ -19,7 +19,25 @@ void desc_free(struct desc *d)
         free(d->included.at[i]);
     }
     vec_free(&d->included);
+    vec_free(&d->overridden);
+    map_free(&d->brought);
     arena_free(&d->arena);
+}
+
+static struct str key_of(const struct ast_node *include)
+{
+    const struct span *place = &include->children->span;
+    return (struct str){(const char *)place, sizeof *place};
+}
+
+void desc_set_brought(struct desc *d, const struct ast_node *include, struct ast *tree)
+{
+    map_set(&d->brought, key_of(include), tree);
+}
+
+const struct ast *desc_brought(const struct desc *d, const struct ast_node *include)
+{
+    return map_get(&d->brought, key_of(include));
 }
 
 const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id)

@@ -5,6 +5,7 @@
 
 #include "ast/ast.h"
 #include "base/arena.h"
+#include "base/map.h"
 #include "base/vec.h"
 #include "diag/diag.h"
 #include "math/transform.h"
@@ -65,9 +66,15 @@ struct desc {
     VEC(struct desc_object *) textures, materials, lights, surfaces;
     VEC(struct desc_object *) defaults; /* what `default` gave: only to be validated */
     VEC(struct ast *) included;         /* trees of the files included; texts point into them */
+    struct map brought;          /* the place of an include's string to the tree it brought */
+    VEC(struct span) overridden; /* names of params that -D gives */
 };
 
 void desc_free(struct desc *d);
+
+/* The tree that an include brought (its node is borrowed); NULL: it was not evaluated. */
+void desc_set_brought(struct desc *d, const struct ast_node *include, struct ast *tree);
+const struct ast *desc_brought(const struct desc *d, const struct ast_node *include);
 
 /* The property as it was given, or NULL when it was not. */
 const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id);

@@ -17,6 +17,7 @@ struct module {
     bool known;   /* id is told: not standard input */
     bool reading; /* not at its end yet */
     const char *path;
+    struct ast *tree; /* the description's; NULL: it could not be read */
     struct arena arena;
     struct scope scope;
 };
@@ -136,6 +137,7 @@ static void eval_file(struct eval *e, const struct ast_node *string, const char 
     }
     struct ast *ast = mem_zalloc(1, sizeof *ast);
     vec_push(&e->out->included, ast);
+    e->reading->tree = ast;
     bool parsed = syntax_parse(s, ast, e->diag);
     e->out->incomplete |= !parsed;
     if (!ast->xml)
@@ -183,6 +185,8 @@ void eval_include(struct eval *e, const struct ast_node *node)
         e->names_lost = true;
     } else {
         m = m ? m : read_module(e, string, path);
+        if (m->tree)
+            desc_set_brought(e->out, node, m->tree);
         scope_import(e, &m->scope, string->span);
     }
     free(path);

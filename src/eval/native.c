@@ -39,6 +39,7 @@ static void eval_param(struct eval *e, const struct ast_node *node)
             continue;
         v = eval_define_value(e, e->options->defines[i].value, &v);
         e->define_used[i] = true;
+        vec_push(&e->out->overridden, node->name_span);
     }
     bind_value(e, node, &v);
 }

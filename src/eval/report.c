@@ -3,6 +3,8 @@
 
 #include "eval/context.h"
 
+#include <math.h>
+
 #include <stdio.h>
 
 /* "sphere has: center radius ..." */
@@ -110,4 +112,89 @@ void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word
     }
     diag_did_you_mean(entry, span, str_nearest_found(&nearest));
     diag_note(entry, "there are:%s", list);
+}
+
+/* ---- style ---- */
+
+static bool is_plain_number(const struct ast_node *node)
+{
+    return node->kind == AST_NUMBER ||
+           (node->kind == AST_PREFIX && node->children->kind == AST_NUMBER);
+}
+
+/* A unit behind each number that lacks one, when they are spelt out. */
+static void add_units(struct diag_entry *entry, const struct ast_node *node, const struct value *v)
+{
+    const struct ast_node *c = node->kind == AST_VECTOR ? node->children : node;
+    for (uint32_t i = 0; i < v->n; i++, c = c->next) {
+        bool bare = v->number[i] != 0 && !value_is_angle(v, i);
+        struct span end = {c->span.end, c->span.end};
+        if (bare && is_plain_number(c))
+            diag_fix(entry, end, DIAG_FIX_SAFE, "deg");
+        if (node->kind != AST_VECTOR)
+            return;
+    }
+}
+
+static void report_missing_unit(struct eval *e, enum schema_prop_id id,
+                                const struct ast_node *property, const struct value *v)
+{
+    bool bare = false;
+    for (uint32_t i = 0; i < v->n; i++)
+        bare |= v->number[i] != 0 && !value_is_angle(v, i);
+    if (!bare || !diag_wants(e->diag, DIAG_ANGLE_WITHOUT_UNIT))
+        return;
+    const struct ast_node *node = ast_value(property, e->scratch);
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_ANGLE_WITHOUT_UNIT, node->span,
+                    "'%s' without a unit is taken as degrees", schema_props[id].native);
+    add_units(entry, node, v);
+}
+
+static void report_scalar_position(struct eval *e, enum schema_prop_id id,
+                                   const struct ast_node *property, const struct value *v)
+{
+    if (v->type != VALUE_NUMBER || v->number[0] == 0 || !diag_wants(e->diag, DIAG_SCALAR_POSITION))
+        return;
+    const struct ast_node *node = ast_value(property, e->scratch);
+    struct diag_entry *entry = diag_report(
+        e->diag, DIAG_SCALAR_POSITION, node->span,
+        "'%s' is given one number, which stands for x, y and z alike", schema_props[id].native);
+    struct str text = srcmap_text(e->diag->sources, node->span);
+    if (is_plain_number(node))
+        diag_fix(entry, node->span, DIAG_FIX_MAYBE, "(%.*s, %.*s, %.*s)", STR_ARG(text),
+                 STR_ARG(text), STR_ARG(text));
+}
+
+void report_style(struct eval *e, enum schema_prop_id id, const struct ast_node *property,
+                  const struct value *v)
+{
+    enum schema_type type = schema_props[id].type;
+    if (!value_is_numeric(v))
+        return;
+    if (type == TYPE_ANGLE || type == TYPE_ROTATION)
+        report_missing_unit(e, id, property, v);
+    else if (type == TYPE_VECTOR)
+        report_scalar_position(e, id, property, v);
+}
+
+static bool has_fraction(const struct value *v)
+{
+    for (uint32_t i = 0; i < v->n; i++)
+        if (v->number[i] != floor(v->number[i]))
+            return true;
+    return false;
+}
+
+void report_float_comparison(struct eval *e, const struct value *a, const struct value *b,
+                             struct span span)
+{
+    bool numbers = value_is_numeric(a) && value_is_numeric(b);
+    if (!numbers || !diag_wants(e->diag, DIAG_COMPARISON_OF_FLOATS) ||
+        !(has_fraction(a) || has_fraction(b)))
+        return;
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_COMPARISON_OF_FLOATS, span,
+                    "numbers with fractions are seldom equal to the last digit");
+    diag_note(entry, "abs(a - b) < 1e-9 leaves room for rounding");
 }

@@ -1,4 +1,4 @@
-/* The checks and their numbers (used by lint_run). */
+/* The checks, their numbers, and what they share (internal to src/lint). */
 #ifndef WRT_LINT_CHECKS_H
 #define WRT_LINT_CHECKS_H
 
@@ -19,5 +19,35 @@ extern const struct lint_threshold lint_thresholds[LINT_THRESHOLDS];
 #define CHECK(stage, function, ...) void function(const struct lint *l);
 #include "lint/checks.def"
 #undef CHECK
+
+/* ---- common.c ---- */
+
+typedef void lint_look(const struct lint *l, const struct desc_object *o);
+
+/* Looks at each object, in the frame in which it was made. */
+void lint_each_surface(const struct lint *l, lint_look *look);
+void lint_each_light(const struct lint *l, lint_look *look);
+void lint_each_material(const struct lint *l, lint_look *look);
+
+/* The object's own value of the property: NULL when it is not given, or by another object, which is
+ * looked at itself. */
+const struct desc_value *lint_own(const struct desc_object *o, enum schema_prop_id id);
+
+/* The value's place; that of the object when it is not given. */
+struct span lint_place(const struct desc_object *o, enum schema_prop_id id);
+
+/* All that spells a value: in XML that may be several elements. */
+struct span lint_extent(const struct desc_object *o, const struct desc_prop *p);
+
+/* The property as the object's format spells it. */
+struct str lint_name(const struct desc_object *o, enum schema_prop_id id);
+
+/* True in the file itself, not in one that it includes. */
+bool lint_is_here(const struct lint *l, struct span span);
+
+/* Proposes that the text goes away, with the blanks behind it, and with its line when nothing else
+ * stands there. */
+void lint_remove(const struct lint *l, struct diag_entry *e, struct span span,
+                 enum diag_fix_kind kind);
 
 #endif

@@ -19,6 +19,41 @@ static const char *path_of(struct lowering *l, const struct desc_value *file)
     return kept;
 }
 
+/* Offers another spelling of the last bytes of the file's name. */
+static void offer(struct lowering *l, struct diag_entry *e, const struct desc_value *file,
+                  const char *wrong, const char *right)
+{
+    struct str text = srcmap_text(l->sources, file->span);
+    size_t n = strlen(wrong);
+    const char *at = memmem(text.at, text.n, wrong, n);
+    if (!at)
+        return;
+    uint32_t begin = file->span.begin + (uint32_t)(at - text.at);
+    diag_fix(e, (struct span){begin, begin + (uint32_t)n}, DIAG_FIX_MAYBE, "%s", right);
+}
+
+static const char *last_part(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* What other machines would have made of the name. */
+static void explain_missing(struct lowering *l, struct diag_entry *e, const struct desc_value *file,
+                            const char *path)
+{
+    char *other = file_other_case(path);
+    if (other) {
+        diag_note(e, "there is '%s': the names differ only in case", other);
+        offer(l, e, file, last_part(path), last_part(other));
+    } else if (memchr(file->string.at, '\\', file->string.n)) {
+        diag_note(e, "'\\' is part of a name; '/' stands between folders");
+    } else if (*file->string.at == '/') {
+        diag_note(e, "an absolute path holds on the machine it was written on");
+    }
+    free(other);
+}
+
 static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,
                       const char *what, char **data, size_t *n)
 {
@@ -27,8 +62,10 @@ static bool read_file(struct lowering *l, const struct desc_value *file, const c
             ? file_read(path, data, n)
             : "the name holds a zero byte";
     if (reason)
-        diag_report(l->diag, DIAG_FILE_MISSING, file->span, "could not read the %s '%s': %s", what,
-                    path, reason);
+        explain_missing(l,
+                        diag_report(l->diag, DIAG_FILE_MISSING, file->span,
+                                    "could not read the %s '%s': %s", what, path, reason),
+                        file, path);
     return reason == NULL;
 }
 
