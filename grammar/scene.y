@@ -65,6 +65,7 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %token <text> NUMBER "number" DEGREES "angle" RADIANS "angle in radians"
 %token <text> STRING "string"
 %token <text> COLOUR "colour"
+%token BAD_VALUE "damaged number" /* reported */
 %token <text> MEMBER "member" OPENING "member up to its '{'" /* several as one: syntax/members.c */
 %token WRT "'wrt'" MODEL "'model'" LET "'let'" PARAM "'param'"
 %token <text> MATERIAL "'material'" TEXTURE "'texture'"
@@ -252,6 +253,7 @@ expression:
 | RADIANS      { $$ = parser_number(p, AST_ANGLE, @$, $1); $$->unit = AST_RADIANS; }
 | STRING       { $$ = ast_text(p->ast, AST_STRING, @$, $1); }
 | COLOUR       { $$ = parser_colour(p, @$, $1); }
+| BAD_VALUE    { $$ = ast_node(p->ast, AST_ERROR, @$); }
 | TRUE         { $$ = ast_node(p->ast, AST_BOOL, @$); $$->boolean = true; }
 | FALSE        { $$ = ast_node(p->ast, AST_BOOL, @$); }
 | NAME         { $$ = ast_named(p->ast, AST_NAME, @$, $1, @1); }

@@ -196,6 +196,23 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
     return e;
 }
 
+struct diag_mark diag_mark(const struct diag *d)
+{
+    return (struct diag_mark){
+        d->entries.n, {d->kept[0], d->kept[1]}, d->dropped, d->errors, d->warnings, d->exit};
+}
+
+void diag_rewind(struct diag *d, const struct diag_mark *mark)
+{
+    while (d->entries.n > mark->entries)
+        entry_free(d->entries.at[--d->entries.n]);
+    memcpy(d->kept, mark->kept, sizeof d->kept);
+    d->dropped = mark->dropped;
+    d->errors = mark->errors;
+    d->warnings = mark->warnings;
+    d->exit = mark->exit;
+}
+
 void diag_label(struct diag_entry *e, struct span span, const char *format, ...)
 {
     if (e == &e->owner->spare)

@@ -177,6 +177,15 @@ void diag_free(struct diag *d);
 struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span span,
                                const char *format, ...) __attribute__((format(printf, 4, 5)));
 
+/* What was reported so far. */
+struct diag_mark {
+    size_t entries, kept[2], dropped, errors, warnings;
+    enum diag_exit exit;
+};
+struct diag_mark diag_mark(const struct diag *d);
+/* Takes back what was reported since; none of it inside a frame. */
+void diag_rewind(struct diag *d, const struct diag_mark *mark);
+
 void diag_label(struct diag_entry *e, struct span span, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void diag_note(struct diag_entry *e, const char *format, ...) __attribute__((format(printf, 2, 3)));

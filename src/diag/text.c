@@ -114,20 +114,29 @@ static void put_caret_line(FILE *out, const struct location *at, struct window w
     fprintf(out, "%s\n", s->plain);
 }
 
-/* The replacement under what it replaces, when it fits the line. */
+/* The replacements under what they replace, where they fit the line. */
 static void put_fixits(FILE *out, const struct diag_entry *e, const struct location *at,
                        struct window w, const struct style *s)
 {
+    size_t column = 0; /* behind the last one; 0: no line is begun */
     for (size_t i = 0; i < e->fixits.n; i++) {
         const struct diag_fixit *f = &e->fixits.at[i];
         bool shows = strcspn(f->text, "\n") > 0; /* what only goes away does not */
         if (!shows || f->span.begin < at->line_base + w.begin ||
             f->span.begin > at->line_base + w.end)
             continue;
-        fprintf(out, "      | %s", w.begin ? "   " : "");
-        put_columns(out, at->line_text, w.begin, f->span.begin - at->line_base, 0, ' ');
-        fprintf(out, "%s%.*s%s\n", s->fix, (int)strcspn(f->text, "\n"), f->text, s->plain);
+        size_t here = f->span.begin - at->line_base, n = strcspn(f->text, "\n");
+        if (n == 0)
+            continue;
+        bool begins = column == 0 || here < column;
+        if (begins)
+            fprintf(out, "%s      | %s", column ? "\n" : "", w.begin ? "   " : "");
+        put_columns(out, at->line_text, begins ? w.begin : column, here, 0, ' ');
+        fprintf(out, "%s%.*s%s", s->fix, (int)n, f->text, s->plain);
+        column = here + n;
     }
+    if (column)
+        putc('\n', out);
 }
 
 static void put_snippet(FILE *out, const struct location *at, struct span span,

@@ -196,19 +196,49 @@ static converter *const converters[SCHEMA_TYPES] = {
     [TYPE_SURFACE] = as_surface,
 };
 
+/* A list of numbers where a vector is meant; the value is written in its place. */
+static void add_vector(struct diag_entry *entry, const struct value *v, struct str text)
+{
+    for (uint32_t i = 0; i < v->n; i++)
+        if (v->items && v->items[i].type != VALUE_NUMBER)
+            return;
+    if (v->n < 2 || v->n > 3 || text.n < 2 || text.at[0] != '[' || text.at[text.n - 1] != ']')
+        return;
+    diag_note(entry, "vectors are written (x, y, z); brackets make lists");
+    diag_fix(entry, (struct span){v->span.begin, v->span.begin + 1}, DIAG_FIX_SAFE, "(");
+    diag_fix(entry, (struct span){v->span.end - 1, v->span.end}, DIAG_FIX_SAFE, ")");
+}
+
+/* A name in quotes. */
+static void add_name(struct eval *e, struct diag_entry *entry, const struct value *v,
+                     struct str text)
+{
+    if (!scope_find(e, v->string) || text.n != v->string.n + 2 || text.at[0] != '"')
+        return;
+    diag_note(entry, "names stand without quotes");
+    diag_fix(entry, v->span, DIAG_FIX_SAFE, "%.*s", STR_ARG(v->string));
+}
+
 static void report_misfit(struct eval *e, enum schema_prop_id id, const struct value *v)
 {
     const struct schema_prop *p = &schema_props[id];
+    struct str text = srcmap_text(e->diag->sources, v->span);
     if (p->type == TYPE_WORD && v->type == VALUE_STRING) {
         report_unknown_word(e, id, v->string, v->span, false);
         return;
     }
-    if (p->type == TYPE_INTEGER && v->type == VALUE_NUMBER && !v->angles)
+    if (p->type == TYPE_INTEGER && v->type == VALUE_NUMBER && !v->angles) {
         diag_report(e->diag, DIAG_WRONG_TYPE, v->span,
                     "'%s' takes a whole number, but this is %.17g", p->native, v->number[0]);
-    else
+        return;
+    }
+    struct diag_entry *entry =
         diag_report(e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s, but this is %s", p->native,
                     schema_type_name(p->type), value_type_name(v));
+    if (v->type == VALUE_LIST)
+        add_vector(entry, v, text);
+    else if (v->type == VALUE_STRING)
+        add_name(e, entry, v, text);
 }
 
 bool value_convert(struct eval *e, enum schema_prop_id id, const struct value *v,

@@ -86,6 +86,7 @@ static const char *skip_other(const char *at)
 static struct str next_closing(const struct parser *p)
 {
     enum { AHEAD = 1 << 18, TAGS = 4096 };
+    xml_release(p->scanner);
     const char *at = text_at(p, p->at), *end = p->source->text + p->source->n;
     size_t depth = 0;
     if ((size_t)(end - at) > AHEAD)
@@ -109,8 +110,8 @@ static struct str next_closing(const struct parser *p)
     return (struct str){0};
 }
 
-/* The last place before the closing tag where its opening stands without the `<`; unknown when there
- * is none in the element around. */
+/* The last place before the closing tag where its opening stands without the `<`; unknown when
+ * there is none in the element around. */
 static struct span find_bare_opening(struct parser *p, struct span closing, struct str name)
 {
     const struct open_element *around = top_of(p);
@@ -177,8 +178,8 @@ static void report_wrong_name(struct parser *p, struct span span, struct str clo
     const struct open_element *top = top_of(p);
     if (is_known(closing) && !is_known(top->name)) {
         struct diag_entry *e =
-            diag_report(p->diag, DIAG_XML_CLOSING_TAG, top->span,
-                        "'<%.*s>' is closed as '</%.*s>'", STR_ARG(top->name), STR_ARG(closing));
+            diag_report(p->diag, DIAG_XML_CLOSING_TAG, top->span, "'<%.*s>' is closed as '</%.*s>'",
+                        STR_ARG(top->name), STR_ARG(closing));
         diag_label(e, span, "here");
         diag_fix(e, top->span, DIAG_FIX_MAYBE, "<%.*s", STR_ARG(closing));
         return;
@@ -206,8 +207,8 @@ static void report_unopened(struct parser *p, struct span span, struct str closi
 
 /* ---- the tokens ---- */
 
-/* A closing tag of a name that no open element has.  It closes the innermost one under a wrong name,
- * unless that one's own closing tag is still to come. */
+/* A closing tag of a name that no open element has.  It closes the innermost one under a wrong
+ * name, unless that one's own closing tag is still to come. */
 static int close_unknown(struct parser *p, struct str name, struct span span)
 {
     bool stray = str_equal(next_closing(p), top_of(p)->name);

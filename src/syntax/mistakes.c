@@ -3,6 +3,8 @@
 
 #include "syntax/parser.h"
 
+#include "grammar/scene.tab.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -79,6 +81,20 @@ static bool begins_item(struct str found)
             ((found.at[0] | 32) >= 'a' && (found.at[0] | 32) <= 'z'));
 }
 
+/* A vector in the manner of POV-Ray, if it ends on its line. */
+static void add_angle_brackets(const struct parser *p, struct diag_entry *e, struct span span)
+{
+    native_release(p->scanner);
+    const char *text = p->source->text + (span.begin - p->source->base);
+    size_t end = strcspn(text + 1, "<>\n") + 1;
+    diag_note(e, "vectors are written (x, y, z)");
+    if (text[end] != '>')
+        return;
+    struct span closing = {span.begin + (uint32_t)end, span.begin + (uint32_t)end + 1};
+    diag_fix(e, span, DIAG_FIX_MAYBE, "(");
+    diag_fix(e, closing, DIAG_FIX_MAYBE, ")");
+}
+
 /* How to write what was probably meant. */
 static void add_advice(const struct parser *p, struct diag_entry *e, struct span span,
                        const char *const *expected, size_t n)
@@ -92,6 +108,8 @@ static void add_advice(const struct parser *p, struct diag_entry *e, struct span
     }
     if (colon && str_is(found, "="))
         diag_note(e, "a property is written 'name: value'");
+    else if (str_is(found, "<") && n == 1 && strcmp(expected[0], "value") == 0)
+        add_angle_brackets(p, e, span);
     else if (comma && begins_item(found) && !on_later_line(p, span))
         diag_note(e, "commas stand between the items of lists, vectors and calls");
     else if (name && is_keyword(found))
@@ -101,15 +119,13 @@ static void add_advice(const struct parser *p, struct diag_entry *e, struct span
 /* The text ends inside brackets. */
 static void report_unclosed(struct parser *p)
 {
-    struct span opening, place;
-    if (!parser_find_unclosed(p, &opening, &place))
-        opening = place = p->brackets[p->depth - 1];
-    struct str bracket = srcmap_text(p->diag->sources, opening);
-    const char *closing = *bracket.at == '{' ? "}" : *bracket.at == '(' ? ")" : "]";
-    struct diag_entry *e =
-        diag_report(p->diag, DIAG_SYNTAX, place, "expected '%s'; the text ends too early", closing);
-    diag_label(e, opening, "this is not closed");
-    diag_fix(e, place, DIAG_FIX_MAYBE, "%s", closing);
+    struct span opening = p->brackets[p->depth - 1];
+    char c = *srcmap_text(p->diag->sources, opening).at;
+    diag_report(p->diag, DIAG_SYNTAX, opening, "this is not closed; '%c' is missing",
+                c == '{'   ? '}'
+                : c == '(' ? ')'
+                           : ']');
+    p->astray = opening.begin;
 }
 
 /* Bytes of blanks before the first word of the line. */
@@ -122,8 +138,8 @@ static size_t indentation(const struct parser *p, uint32_t offset)
     return n;
 }
 
-/* Whether this token only follows from the last error: it is left over from the same line, or closes
- * what could not be opened there. */
+/* Whether this token only follows from the last error: it is left over from the same line, or
+ * closes what could not be opened there. */
 static bool is_left_over(const struct parser *p, struct span span)
 {
     if (!p->astray || p->ast->xml)
@@ -189,13 +205,6 @@ void parser_stray(struct parser *p, struct span span, struct str text)
         add_double(
             diag_report(p->diag, DIAG_SYNTAX, span, "'%.*s' cannot stand here", STR_ARG(text)),
             span, text);
-}
-
-void parser_unknown_unit(struct parser *p, struct span span, struct str text)
-{
-    struct diag_entry *e = diag_report(p->diag, DIAG_NUMBER_SYNTAX, span,
-                                       "'%.*s' is not a number with a unit", STR_ARG(text));
-    diag_note(e, "the units are 'deg' and 'rad', for angles");
 }
 
 void xml_unclosed_tag(struct parser *p, uint32_t end)

@@ -29,22 +29,67 @@ static void close_scanner(struct parser *p, bool xml)
     (xml ? xml_lex_destroy : native_lex_destroy)(p->scanner);
 }
 
+/* Parses the text once, given the brackets that are known to be missing. */
+static void run_once(struct parser *p)
+{
+    bool xml = p->ast->xml;
+    p->at = p->source->base;
+    p->previous = p->now = (struct span){p->at, p->at};
+    if (!open_scanner(p, xml))
+        mem_exhausted(p->source->n);
+    if (scene_parse(p) == 2 && !p->stopped)
+        mem_exhausted(p->source->n);
+    close_scanner(p, xml);
+    vec_free(&p->open);
+}
+
+/* Adds a brace that is missing to those known; false when there is none. */
+static bool find_missing(struct parser *p)
+{
+    struct missing m;
+    if (p->ast->xml || !p->astray || p->missing_count == MISSING_LIMIT ||
+        !parser_find_unclosed(p, &m))
+        return false;
+    unsigned i = p->missing_count++;
+    for (; i > 0 && p->missing[i - 1].place > m.place; i--)
+        p->missing[i] = p->missing[i - 1];
+    p->missing[i] = m;
+    return true;
+}
+
+/* What was reported and made is taken back, and the text parsed again. */
+static void run_again(struct parser *p, const struct parser *last, const struct diag_mark *mark)
+{
+    bool xml = last->ast->xml;
+    diag_rewind(last->diag, mark);
+    ast_free(last->ast);
+    ast_init(last->ast, last->source, xml);
+    *p = (struct parser){
+        .ast = last->ast, .diag = last->diag, .source = last->source, .start = p->start};
+    memcpy(p->missing, last->missing, sizeof p->missing);
+    p->missing_count = last->missing_count;
+    run_once(p);
+}
+
+/* A wrong text in which braces are not closed is parsed again with them closed where they should
+ * be, so that what follows is not taken for a part of a block; unless that explains less. */
 static void run(const struct source *source, int start_token, struct ast *out, struct diag *diag)
 {
-    struct span start = {source->base, source->base};
-    struct parser p = {.ast = out,
-                       .diag = diag,
-                       .source = source,
-                       .start = start_token,
-                       .at = source->base,
-                       .previous = start,
-                       .now = start};
-    if (!open_scanner(&p, out->xml))
-        mem_exhausted(source->n);
-    if (scene_parse(&p) == 2 && !p.stopped)
-        mem_exhausted(source->n);
-    close_scanner(&p, out->xml);
-    vec_free(&p.open);
+    struct diag_mark mark = diag_mark(diag);
+    struct parser p = {.ast = out, .diag = diag, .source = source, .start = start_token};
+    struct parser again = {.start = start_token};
+    run_once(&p);
+    size_t errors = diag->errors;
+    if (!find_missing(&p))
+        return;
+    while (find_missing(&p)) {
+    }
+    run_again(&again, &p, &mark);
+    if (diag->errors <= errors + p.missing_count)
+        return;
+    p.missing_count = 0;
+    again.start = start_token;
+    run_again(&again, &p, &mark);
 }
 
 bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag)

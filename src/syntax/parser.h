@@ -23,6 +23,19 @@ struct open_element {
     uint32_t text_end; /* of its first text; 0: none came yet */
 };
 
+/* The last two native tokens. */
+struct trail {
+    int before, last;
+};
+
+/* Native: a closing brace that the text lacks, as its indentation tells. */
+struct missing {
+    struct span opening;
+    uint32_t place; /* where it belongs */
+};
+
+enum { MISSING_LIMIT = 16 };
+
 struct parser {
     struct ast *ast;
     struct diag *diag;
@@ -35,19 +48,26 @@ struct parser {
     struct span now;        /* the one under way */
     uint32_t comment_begin; /* of the comment, string or section being scanned */
 
-    struct ast_list version;             /* native: `wrt 1` */
-    struct span brackets[NESTING_LIMIT]; /* native: the open ones */
-    unsigned depth;                      /* native: how many */
-    bool member_due;                     /* native: a member of a block may begin */
+    struct ast_list version;               /* native: `wrt 1` */
+    struct span brackets[NESTING_LIMIT];   /* native: the open ones */
+    unsigned depth;                        /* native: how many */
+    bool member_due;                       /* native: a member of a block may begin */
+    struct trail trail;                    /* native */
+    struct missing missing[MISSING_LIMIT]; /* native: by place, as far as they are known */
+    unsigned missing_count, missing_next;
+    bool held; /* native: a token waits behind a feigned one */
+    int held_token;
+    struct str held_text;
+    struct span held_span;
     uint32_t astray; /* native: where the last syntax error was; 0: none yet */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
     uint32_t lost_in; /* XML: a tag was damaged where so many elements were open; 0: none */
-    bool tag_end_due;              /* XML: a `>` to feign */
-    bool behind_tag;               /* XML: no text came since the last tag */
-    bool feigned;                  /* XML: the token stands for one whose absence was reported */
+    bool tag_end_due; /* XML: a `>` to feign */
+    bool behind_tag;  /* XML: no text came since the last tag */
+    bool feigned;     /* XML: the token stands for one whose absence was reported */
 };
 
 /* ---- tokens.c: for both scanners ---- */
@@ -121,9 +141,22 @@ bool xml_close_due(struct parser *p);
 
 /* ---- unclosed.c ---- */
 
-/* The bracket that is not closed, and where its closing one belongs, when the text ends inside
- * brackets; false when the indentation tells nothing. */
-bool parser_find_unclosed(const struct parser *p, struct span *opening, struct span *place);
+/* A brace that is not closed, and where its closing one belongs, those already known counted; false
+ * when all are. */
+bool parser_find_unclosed(const struct parser *p, struct missing *found);
+/* The token that a missing brace is, due before a token at `begin`; 0: none is.  Reports it. */
+int parser_missing_token(struct parser *p, uint32_t begin);
+
+/* ---- slips.c: usual slips, told and mended ---- */
+
+/* The token, or the one that was meant. */
+int parser_mend_slip(struct parser *p, int token, struct span span, struct str text);
+/* Remembers a token for the next ones. */
+void parser_trail(struct parser *p, int token);
+void parser_single_quotes(struct parser *p, struct span span, struct str text);
+void parser_degree_sign(struct parser *p, struct span span);
+/* A number with a unit that is none. */
+void parser_bad_number(struct parser *p, struct span span, struct str text);
 
 /* ---- mistakes.c: what both scanners and the grammar report ---- */
 
@@ -134,7 +167,6 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
 /* What began at p->comment_begin never ends; points at its first `mark` bytes. */
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message);
 void parser_stray(struct parser *p, struct span span, struct str text);
-void parser_unknown_unit(struct parser *p, struct span span, struct str text);
 /* A tag without its `>`, which belongs at `end`. */
 void xml_unclosed_tag(struct parser *p, uint32_t end);
 void xml_nameless_tag(struct parser *p, struct span span);

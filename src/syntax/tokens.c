@@ -60,7 +60,8 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
         p->feigned = false;
         do /* blanks around the root element mean nothing, nor do those right behind a tag */
             token = xml_scan(value, span, p->scanner);
-        while (token == TOKEN_XML_TEXT && (!p->open.n || p->behind_tag) && !str_trim(value->text).n);
+        while (token == TOKEN_XML_TEXT && (!p->open.n || p->behind_tag) &&
+               !str_trim(value->text).n);
         p->behind_tag = token != TOKEN_XML_TEXT;
         p->feigned |= p->tag_end_due;
         if (token == TOKEN_XML_TEXT && !p->open.n)
@@ -70,9 +71,30 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     return token;
 }
 
+/* The token that was scanned before a feigned one, or a new one. */
+static int held_or_scanned(SCENE_STYPE *value, struct span *span, struct parser *p)
+{
+    if (!p->held)
+        return parser_mend_slip(p, native_scan(value, span, p->scanner), *span, value->text);
+    p->held = false;
+    *span = p->held_span;
+    value->text = p->held_text;
+    return p->held_token;
+}
+
 static int next_native(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
-    int token = native_scan(value, span, p->scanner);
+    int token = held_or_scanned(value, span, p);
+    int missing = parser_missing_token(p, span->begin);
+    if (missing) {
+        p->held = true;
+        p->held_token = token;
+        p->held_text = value->text;
+        p->held_span = *span;
+        *span = (struct span){p->now.end, p->now.end};
+        token = missing;
+    }
+    parser_trail(p, token);
     p->member_due = parser_member_follows(p, token);
     return token;
 }

@@ -1,8 +1,10 @@
-/* Which bracket of a native text is not closed, told by how its lines are indented: closing brackets
+/* Which brace of a native text is not closed, told by how its lines are indented: closing braces
  * that begin a line stand as far in as the line of their opening ones. */
 #include "config.h"
 
 #include "syntax/parser.h"
+
+#include "grammar/scene.tab.h"
 
 #include <string.h>
 
@@ -12,6 +14,8 @@ struct opening {
 };
 
 struct reading {
+    const struct parser *parser;
+    unsigned missing; /* the next one of those known */
     const char *text;
     uint32_t n, at, indent;
     bool line_begins; /* nothing but blanks stands before in the line */
@@ -45,8 +49,8 @@ static void begin_line(struct reading *r)
     r->line_begins = true;
 }
 
-/* The bracket that this closing one closes; false when the indentation says that it cannot be. */
-static bool close_bracket(struct reading *r)
+/* Closes the innermost brace; false when the indentation says that it cannot be meant. */
+static bool close_brace(struct reading *r)
 {
     if (!r->open.n)
         return true;
@@ -57,11 +61,23 @@ static bool close_bracket(struct reading *r)
     return true;
 }
 
-/* Reads up to the closing bracket that stands too far out, or to the end. */
-static void read_brackets(struct reading *r)
+/* Closes what is known to miss its closing brace here. */
+static void close_missing(struct reading *r)
+{
+    const struct parser *p = r->parser;
+    while (r->missing < p->missing_count &&
+           p->missing[r->missing].place <= p->source->base + r->at) {
+        r->missing++;
+        r->open.n -= r->open.n > 0;
+    }
+}
+
+/* Reads up to the closing brace that stands too far out, or to the end. */
+static void read_braces(struct reading *r)
 {
     while (r->at < r->n) {
         char c = r->text[r->at];
+        close_missing(r);
         if (c == '\n') {
             begin_line(r);
             continue;
@@ -79,13 +95,14 @@ static void read_brackets(struct reading *r)
             skip_string(r);
             continue;
         }
-        if (strchr("([{", c))
+        if (c == '{')
             vec_push(&r->open, (struct opening){r->at, r->indent});
-        else if (strchr(")]}", c) && !close_bracket(r))
+        else if (c == '}' && !close_brace(r))
             return;
         r->line_begins &= c == ' ' || c == '\t' || c == '\r';
         r->at++;
     }
+    close_missing(r);
 }
 
 static bool is_blank_line(const char *line)
@@ -94,7 +111,7 @@ static bool is_blank_line(const char *line)
     return *line == '\n' || *line == 0;
 }
 
-/* Where the bracket's lines end: before the first one that is not indented more than its own. */
+/* Where the brace's lines end: before the first one that is not indented more than its own. */
 static uint32_t end_of_body(const struct reading *r, const struct opening *o)
 {
     uint32_t end = o->at + (uint32_t)strcspn(r->text + o->at, "\n");
@@ -109,18 +126,31 @@ static uint32_t end_of_body(const struct reading *r, const struct opening *o)
     return end;
 }
 
-bool parser_find_unclosed(const struct parser *p, struct span *opening, struct span *place)
+bool parser_find_unclosed(const struct parser *p, struct missing *found)
 {
-    struct reading r = {.text = p->source->text, .n = p->source->n, .line_begins = true};
+    struct reading r = {.parser = p, .text = p->source->text, .n = p->source->n};
+    r.line_begins = true;
     r.indent = (uint32_t)strspn(r.text, " \t");
-    read_brackets(&r);
-    bool found = r.open.n > 0;
-    if (found) {
+    read_braces(&r);
+    bool any = r.open.n > 0;
+    if (any) {
         const struct opening *o = &r.open.at[r.open.n - 1];
-        uint32_t base = p->source->base, end = end_of_body(&r, o);
-        *opening = (struct span){base + o->at, base + o->at + 1};
-        *place = (struct span){base + end, base + end};
+        uint32_t base = p->source->base;
+        *found = (struct missing){{base + o->at, base + o->at + 1}, base + end_of_body(&r, o)};
     }
     vec_free(&r.open);
-    return found;
+    return any;
+}
+
+int parser_missing_token(struct parser *p, uint32_t begin)
+{
+    if (p->missing_next == p->missing_count || p->missing[p->missing_next].place > begin)
+        return 0;
+    const struct missing *m = &p->missing[p->missing_next++];
+    struct span place = {m->place, m->place};
+    struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, place, "expected '}'");
+    diag_label(e, m->opening, "this is not closed");
+    diag_fix(e, place, DIAG_FIX_MAYBE, " }");
+    parser_unnest(p);
+    return TOKEN_RBRACE;
 }

@@ -1,0 +1,107 @@
+/* Usual slips of those who come from other languages, told and mended between the scanner and the
+ * grammar, so that nothing else goes wrong behind them. */
+#include "config.h"
+
+#include "syntax/parser.h"
+
+#include "grammar/scene.tab.h"
+
+#include <string.h>
+
+/* The sign that was meant instead of the one written. */
+static int mend_sign(struct parser *p, struct span span, int meant, const char *sign,
+                     const char *what)
+{
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "expected '%s', but found '%.*s'", sign,
+                    STR_ARG(srcmap_text(p->diag->sources, span)));
+    diag_note(e, "%s", what);
+    diag_fix(e, span, DIAG_FIX_SAFE, "%s", sign);
+    return meant;
+}
+
+static bool names_property(int token)
+{
+    return token == TOKEN_NAME || token == TOKEN_MATERIAL || token == TOKEN_TEXTURE;
+}
+
+static bool defines(int token)
+{
+    return token == TOKEN_LET || token == TOKEN_PARAM || token == TOKEN_MATERIAL ||
+           token == TOKEN_TEXTURE;
+}
+
+static bool in_block(const struct parser *p)
+{
+    return p->depth > 0 &&
+           p->source->text[p->brackets[p->depth - 1].begin - p->source->base] == '{';
+}
+
+/* The text is a name, and a colon follows it. */
+static bool is_quoted_property(const struct parser *p, struct str text)
+{
+    native_release(p->scanner);
+    const char *at = p->source->text + (p->at - p->source->base);
+    for (size_t i = 0; i < text.n; i++) {
+        char c = text.at[i];
+        bool letter = (c | 32) >= 'a' && (c | 32) <= 'z';
+        if (!letter && c != '_' && (i == 0 || c < '0' || c > '9'))
+            return false;
+    }
+    at += strspn(at, " \t\r\n");
+    return text.n > 0 && *at == ':';
+}
+
+static int mend_quotes(struct parser *p, struct span span, struct str name)
+{
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "names of properties stand without quotes");
+    diag_fix(e, span, DIAG_FIX_SAFE, "%.*s", STR_ARG(name));
+    return TOKEN_NAME;
+}
+
+int parser_mend_slip(struct parser *p, int token, struct span span, struct str text)
+{
+    const struct trail *t = &p->trail;
+    if (token == TOKEN_EQUALS && names_property(t->last) && !defines(t->before) && in_block(p))
+        return mend_sign(p, span, TOKEN_COLON, ":", "a property is written 'name: value'");
+    if (token == TOKEN_COLON && t->last == TOKEN_NAME && defines(t->before))
+        return mend_sign(p, span, TOKEN_EQUALS, "=", "a definition is written 'let name = value'");
+    if (token == TOKEN_STRING && p->member_due && is_quoted_property(p, text))
+        return mend_quotes(p, span, text);
+    return token;
+}
+
+void parser_trail(struct parser *p, int token)
+{
+    p->trail = (struct trail){.before = p->trail.last, .last = token};
+}
+
+void parser_single_quotes(struct parser *p, struct span span, struct str text)
+{
+    struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, span, "strings have double quotes");
+    diag_fix(e, span, DIAG_FIX_SAFE, "\"%.*s\"", STR_ARG(text));
+}
+
+void parser_degree_sign(struct parser *p, struct span span)
+{
+    struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, span, "degrees are written 'deg'");
+    diag_fix(e, span, DIAG_FIX_SAFE, "deg");
+}
+
+void parser_bad_number(struct parser *p, struct span span, struct str text)
+{
+    struct diag_entry *e = diag_report(p->diag, DIAG_NUMBER_SYNTAX, span,
+                                       "'%.*s' is not a number with a unit", STR_ARG(text));
+    size_t digits = 0;
+    while (digits < text.n && text.at[digits] >= '0' && text.at[digits] <= '9')
+        digits++;
+    const char *x = digits < text.n && text.at[digits] == 'x' ? text.at + digits : NULL;
+    if (x && digits > 0 && x + 1 < text.at + text.n && x[1] >= '0' && x[1] <= '9') {
+        diag_note(e, "a size is written (width, height)");
+        diag_fix(e, span, DIAG_FIX_MAYBE, "(%.*s, %.*s)", (int)digits, text.at,
+                 (int)(text.at + text.n - x - 1), x + 1);
+    } else {
+        diag_note(e, "the units are 'deg' and 'rad', for angles; lengths have none");
+    }
+}
