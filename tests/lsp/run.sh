@@ -25,6 +25,7 @@ done
 work=$(mktemp -d "${TMPDIR:-/tmp}/wrt-lsp.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 cp -R "$here/files" "$work/files"
+chmod -R u+w "$work/files"
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}exitcode=134"
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:+$UBSAN_OPTIONS:}exitcode=134"
 

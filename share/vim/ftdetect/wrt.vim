@@ -1,0 +1,2 @@
+" Scenes of wrt in the native language.
+autocmd BufNewFile,BufRead *.wrt setfiletype wrt
