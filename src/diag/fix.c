@@ -42,6 +42,19 @@ static bool meets_any(const struct edits *edits, const struct diag_entry *e)
     return false;
 }
 
+/* What a finding proposes for one place are alternatives: the first is taken. */
+static void take(struct edits *edits, const struct diag_entry *e)
+{
+    size_t first = edits->list.n;
+    for (size_t i = 0; i < e->fixits.n; i++) {
+        size_t k = first;
+        while (k < edits->list.n && !meets(&edits->list.at[k], &e->fixits.at[i]))
+            k++;
+        if (k == edits->list.n)
+            vec_push(&edits->list, e->fixits.at[i]);
+    }
+}
+
 static int compare(const void *a, const void *b)
 {
     const struct diag_fixit *x = a, *y = b;
@@ -58,8 +71,7 @@ size_t diag_fix_text(struct diag *d, const struct source *source, bool all, stru
         if (!is_ready(e, source, all) || meets_any(&edits, e))
             continue;
         findings++;
-        for (size_t k = 0; k < e->fixits.n; k++)
-            vec_push(&edits.list, e->fixits.at[k]);
+        take(&edits, e);
     }
     if (edits.list.n)
         qsort(edits.list.at, edits.list.n, sizeof *edits.list.at, compare);

@@ -83,31 +83,46 @@ static json_t *stacks_of(const struct diag *d, const struct diag_entry *e)
     return json_pack("[{s:o}]", "frames", frames);
 }
 
-static json_t *fix_of(const struct diag *d, const struct diag_fixit *f)
+static json_t *replacement_of(const struct diag *d, const struct diag_fixit *f)
 {
     json_t *physical = physical_location(d, f->span);
-    if (!physical)
-        return NULL;
     json_t *replacement =
         json_pack("{s:O, s:o}", "deletedRegion", json_object_get(physical, "region"),
                   "insertedContent", message_of(f->text));
-    json_t *fix =
-        json_pack("{s:o, s:[{s:O, s:[o]}]}", "description",
-                  message_of(f->kind == DIAG_FIX_SAFE ? "safe" : "maybe"), "artifactChanges",
-                  "artifactLocation", json_object_get(physical, "artifactLocation"), "replacements",
-                  replacement);
     json_decref(physical);
-    return fix;
+    return replacement;
+}
+
+/* True when it replaces what an earlier one does: they are alternatives. */
+static bool is_alternative(const struct diag_entry *e, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (e->fixits.at[k].span.begin == e->fixits.at[i].span.begin)
+            return true;
+    return false;
+}
+
+/* A change of one text: the fix-it's own, and with the first all that is done together. */
+static json_t *fix_of(const struct diag *d, const struct diag_entry *e, size_t i)
+{
+    const struct diag_fixit *f = &e->fixits.at[i];
+    const struct source *source = srcmap_source(d->sources, f->span.begin);
+    json_t *list = json_array();
+    for (size_t k = i; k < e->fixits.n; k++)
+        if (k == i || (i == 0 && !is_alternative(e, k) &&
+                       srcmap_source(d->sources, e->fixits.at[k].span.begin) == source))
+            json_array_append_new(list, replacement_of(d, &e->fixits.at[k]));
+    return json_pack("{s:o, s:[{s:{s:o}, s:o}]}", "description",
+                     message_of(f->kind == DIAG_FIX_SAFE ? "safe" : "maybe"), "artifactChanges",
+                     "artifactLocation", "uri", uri_of(source->name), "replacements", list);
 }
 
 static json_t *fixes_of(const struct diag *d, const struct diag_entry *e)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < e->fixits.n; i++) {
-        json_t *fix = fix_of(d, &e->fixits.at[i]);
-        if (fix)
-            json_array_append_new(list, fix);
-    }
+    for (size_t i = 0; i < e->fixits.n; i++)
+        if (span_known(e->fixits.at[i].span) && (i == 0 || is_alternative(e, i)))
+            json_array_append_new(list, fix_of(d, e, i));
     return list;
 }
 

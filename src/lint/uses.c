@@ -30,7 +30,7 @@ struct bringer {
 };
 
 struct entry {
-    struct entry *next; /* the one before it in its region */
+    struct entry *next; /* the one after it in its region */
     struct definition *definition;
     struct bringer *bringers;
 };
@@ -38,7 +38,7 @@ struct entry {
 struct region {
     struct region *parent;
     struct map map; /* to struct entry */
-    struct entry *newest;
+    struct entry *first, **end;
     VEC(struct definition *) bodies; /* to be walked at the end */
 };
 
@@ -102,8 +102,8 @@ static struct entry *add(struct walk *w, struct definition *d)
 {
     struct entry *e = arena_zalloc(&w->arena, 1, sizeof *e);
     e->definition = d;
-    e->next = w->region->newest;
-    w->region->newest = e;
+    *w->region->end = e;
+    w->region->end = &e->next;
     map_set(&w->region->map, d->name, e);
     return e;
 }
@@ -147,7 +147,7 @@ static struct definition *define(struct walk *w, const struct ast_node *node, bo
 
 static void open(struct walk *w, struct region *r, struct region *parent)
 {
-    *r = (struct region){.parent = parent};
+    *r = (struct region){.parent = parent, .end = &r->first};
     w->region = r;
 }
 
@@ -203,7 +203,7 @@ static void report_unused(struct walk *w, const struct definition *d)
 static void close(struct walk *w)
 {
     run_bodies(w);
-    for (const struct entry *e = w->region->newest; e; e = e->next)
+    for (const struct entry *e = w->region->first; e; e = e->next)
         if (!e->bringers)
             report_unused(w, e->definition);
     map_free(&w->region->map);
@@ -371,7 +371,7 @@ static struct module *walk_module(struct walk *w, const struct ast *tree)
 /* A name that two includes bring is brought by both. */
 static void import(struct walk *w, const struct module *m, struct inclusion *inclusion)
 {
-    for (const struct entry *e = m->region.newest; e; e = e->next) {
+    for (const struct entry *e = m->region.first; e; e = e->next) {
         struct entry *own = map_get(&w->region->map, e->definition->name);
         if (!own)
             own = add(w, e->definition);

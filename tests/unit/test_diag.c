@@ -6,6 +6,7 @@
 #include "load.h"
 #include "unit.h"
 
+#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -248,6 +249,141 @@ START_TEST(rules)
 }
 END_TEST
 
+/* ---- SARIF: what the schema of 2.1.0 requires ---- */
+
+static json_t *at(json_t *j, const char *key)
+{
+    json_t *found =
+        json_is_array(j) ? json_array_get(j, strtoul(key, NULL, 10)) : json_object_get(j, key);
+    ck_assert_msg(found != NULL, "no '%s'", key);
+    return found;
+}
+
+static const char *text_at(json_t *j, const char *key)
+{
+    const char *text = json_string_value(at(j, key));
+    ck_assert_ptr_nonnull(text);
+    return text;
+}
+
+static void check_message(json_t *owner, const char *key)
+{
+    ck_assert_uint_gt(strlen(text_at(at(owner, key), "text")), 0);
+}
+
+static void check_region(json_t *region)
+{
+    json_int_t line = json_integer_value(at(region, "startLine"));
+    json_int_t end_line = json_integer_value(at(region, "endLine"));
+    json_int_t column = json_integer_value(at(region, "startColumn"));
+    json_int_t end_column = json_integer_value(at(region, "endColumn"));
+    ck_assert_int_ge(line, 1);
+    ck_assert_int_ge(column, 1);
+    ck_assert_int_ge(end_line, line);
+    ck_assert(end_line > line || end_column >= column);
+}
+
+static void check_location(json_t *location)
+{
+    json_t *physical = json_object_get(location, "physicalLocation");
+    ck_assert(physical || json_object_get(location, "message"));
+    if (!physical)
+        return;
+    const char *uri = text_at(at(physical, "artifactLocation"), "uri");
+    ck_assert_uint_eq(strcspn(uri, " \\\"<>"), strlen(uri));
+    check_region(at(physical, "region"));
+}
+
+/* Every change lies in a file and replaces places that do not meet. */
+static void check_fix(json_t *fix)
+{
+    json_t *change, *replacement;
+    size_t i, k;
+    check_message(fix, "description");
+    ck_assert_uint_ge(json_array_size(at(fix, "artifactChanges")), 1);
+    json_array_foreach(at(fix, "artifactChanges"), i, change)
+    {
+        json_int_t last = -1;
+        text_at(at(change, "artifactLocation"), "uri");
+        json_array_foreach(at(change, "replacements"), k, replacement)
+        {
+            json_t *region = at(replacement, "deletedRegion");
+            check_region(region);
+            text_at(at(replacement, "insertedContent"), "text");
+            ck_assert_int_gt(json_integer_value(at(region, "byteOffset")), last);
+            last = json_integer_value(at(region, "byteOffset"));
+        }
+    }
+}
+
+static void check_result(json_t *result, json_t *known)
+{
+    json_t *item;
+    size_t i;
+    const char *level = text_at(result, "level");
+    json_t *rule = json_array_get(known, (size_t)json_integer_value(at(result, "ruleIndex")));
+    ck_assert_str_eq(text_at(rule, "id"), text_at(result, "ruleId"));
+    ck_assert(!strcmp(level, "error") || !strcmp(level, "warning") || !strcmp(level, "note"));
+    check_message(result, "message");
+    json_array_foreach(at(result, "locations"), i, item) check_location(item);
+    json_array_foreach(json_object_get(result, "relatedLocations"), i, item) check_location(item);
+    json_array_foreach(json_object_get(result, "fixes"), i, item) check_fix(item);
+    json_array_foreach(json_object_get(result, "stacks"), i, item)
+        check_location(at(at(at(item, "frames"), "0"), "location"));
+}
+
+/* One finding of each sort: with labels, notes, a stack, changes of two places, alternatives, and
+ * without a place. */
+static void report_all_sorts(struct load *l)
+{
+    const struct diag_frame frame = {NULL, span_in(l, 0, 3), DIAG_FRAME_USE, 0};
+    struct diag_entry *e = diag_report(&l->diag, DIAG_SYNTAX, span_in(l, 4, 7), "one");
+    diag_label(e, span_in(l, 0, 3), "label");
+    diag_note(e, "note");
+    diag_fix(e, span_in(l, 0, 3), DIAG_FIX_SAFE, "a");
+    diag_fix(e, span_in(l, 8, 8), DIAG_FIX_SAFE, "b");
+    e = diag_report(&l->diag, DIAG_WRONG_TYPE, span_in(l, 4, 13), "two");
+    diag_fix(e, span_in(l, 4, 7), DIAG_FIX_MAYBE, "deg");
+    diag_fix(e, span_in(l, 4, 7), DIAG_FIX_MAYBE, "rad");
+    l->diag.frame = &frame;
+    diag_report(&l->diag, DIAG_MISSING_VERSION, span_in(l, 0, 0), "three");
+    diag_report(&l->diag, DIAG_MISSING_VERSION, span_in(l, 0, 0), "three");
+    l->diag.frame = NULL;
+    diag_report(&l->diag, DIAG_CANNOT_WRITE, (struct span){0}, "four");
+}
+
+START_TEST(sarif_has_what_is_required)
+{
+    struct load l;
+    json_error_t error;
+    load_text(&l, "a b.wrt", "one\ntwo\nthree\n");
+    report_all_sorts(&l);
+    char *text = printed(&l, DIAG_FORMAT_SARIF, DIAG_NOTE);
+    json_t *log = json_loads(text, JSON_REJECT_DUPLICATES, &error), *result;
+    ck_assert_msg(log != NULL, "%s", error.text);
+    ck_assert_str_eq(text_at(log, "version"), "2.1.0");
+    ck_assert_ptr_nonnull(strstr(text_at(log, "$schema"), "sarif-schema-2.1.0.json"));
+    ck_assert_uint_eq(json_array_size(at(log, "runs")), 1);
+    json_t *run = at(at(log, "runs"), "0"), *driver = at(at(run, "tool"), "driver");
+    ck_assert_str_eq(text_at(driver, "name"), "wrt");
+    json_t *known = at(driver, "rules"), *results = at(run, "results");
+    ck_assert_uint_eq(json_array_size(known), DIAG_CODES);
+    ck_assert_uint_eq(json_array_size(results), 4);
+    size_t i;
+    json_array_foreach(results, i, result) check_result(result, known);
+    json_t *together = at(at(results, "2"), "fixes"), *either = at(at(results, "3"), "fixes");
+    ck_assert_uint_eq(json_array_size(together), 1);
+    json_t *change = at(at(at(together, "0"), "artifactChanges"), "0");
+    ck_assert_uint_eq(json_array_size(at(change, "replacements")), 2);
+    ck_assert_uint_eq(json_array_size(either), 2);
+    ck_assert_str_eq(text_at(at(change, "artifactLocation"), "uri"), "a%20b.wrt");
+    ck_assert_int_eq(json_integer_value(at(at(results, "1"), "occurrenceCount")), 2);
+    json_decref(log);
+    free(text);
+    load_free(&l);
+}
+END_TEST
+
 Suite *diag_suite(void)
 {
     Suite *s = suite_create("diag");
@@ -258,6 +394,10 @@ Suite *diag_suite(void)
     tcase_add_test(t, ways_to_one_place_are_told_apart);
     tcase_add_test(t, deep_frames_are_cut);
     tcase_add_test(t, messages_are_tame);
+    suite_add_tcase(s, t);
+
+    t = tcase_create("SARIF");
+    tcase_add_test(t, sarif_has_what_is_required);
     suite_add_tcase(s, t);
 
     t = tcase_create("findings");
