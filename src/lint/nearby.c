@@ -56,7 +56,7 @@ static double prim_gap(const struct geometry *g, uint32_t prim, struct vec3 p)
     return triangle_gap(g, &g->triangles.at[kind.index], p);
 }
 
-static double box_gap(struct box b, struct vec3 p)
+double nearby_gap(struct box b, struct vec3 p)
 {
     struct vec3 d = vec3_max(vec3_sub(b.lo, p), vec3_sub(p, b.hi));
     return vec3_length(vec3_max(d, vec3_all(0)));
@@ -91,7 +91,7 @@ static bool is_near_instance(const struct accel *a, const struct instance *i,
 static bool is_near(const struct accel *a, struct target target, const struct search *s)
 {
     const struct geometry *g = a->geometry;
-    if (box_gap(geometry_prim_bounds(g, target.prim), s->p) > s->distance)
+    if (nearby_gap(geometry_prim_bounds(g, target.prim), s->p) > s->distance)
         return false;
     if (s->boxes)
         return true;
@@ -128,7 +128,7 @@ static void search_tree(const struct accel *a, struct search *s)
     while (depth > 0 && !(s->boxes && s->found != PRIM_NONE)) {
         const struct bvh_node *node = &a->nodes[stack[--depth]];
         for (int child = 0; child < 2; child++) {
-            if (box_gap(child_box(node, child), s->p) > s->distance)
+            if (nearby_gap(child_box(node, child), s->p) > s->distance)
                 continue;
             if (node->count[child] > 0)
                 search_run(a, node->first[child], node->count[child], s);

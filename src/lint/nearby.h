@@ -3,6 +3,10 @@
 #define WRT_LINT_NEARBY_H
 
 #include "accel/bvh.h"
+#include "math/box.h"
+
+/* How far the point is from the box. */
+double nearby_gap(struct box b, struct vec3 p);
 
 /* The lowest primitive at most so far from the point, or PRIM_NONE; of this surface, or of any for
  * SURFACE_NONE.  Within an instance distances are as its largest stretch makes them. */

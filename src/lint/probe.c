@@ -55,6 +55,7 @@ void lint_black_picture(const struct lint *l)
     if (!is_anything_in_view(l))
         diag_note(e, "no surface is in the view: look at where the camera points");
     else
-        diag_note(e, "no light arrives on what is in the view: look at where the lights are and "
-                     "what stands between");
+        diag_note(e,
+                  "what is in the view gives no light: look at where the lights are, what stands "
+                  "between, and the materials");
 }

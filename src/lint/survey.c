@@ -227,3 +227,15 @@ const struct vec3 *survey_light_place(const struct light *light, size_t n)
         return light->kind == LIGHT_SUN ? NULL : &light->position;
     return n <= light->points.n ? &light->points.at[n - 1].position : NULL;
 }
+
+/* Classic shadow rays to a sample go on for as far as the light's position is. */
+struct box survey_light_box(const struct light *light)
+{
+    if (light->samples.n)
+        return geometry_bounds(&light->object);
+    struct box box = {light->position, light->position};
+    for (size_t i = 0; i < light->points.n; i++)
+        box = box_add(box, light->points.at[i].position);
+    struct vec3 reach = vec3_all(vec3_length(vec3_sub(box.hi, box.lo)));
+    return (struct box){vec3_sub(box.lo, reach), vec3_add(box.hi, reach)};
+}

@@ -43,4 +43,7 @@ unsigned survey_around(struct survey *s, struct vec3 p, uint32_t surfaces[SURVEY
 /* The places that light comes from: where it is, and its samples.  NULL: the n-th is none. */
 const struct vec3 *survey_light_place(const struct light *light, size_t n);
 
+/* A box around all shadow rays' ends at a light that is no sun. */
+struct box survey_light_box(const struct light *light);
+
 #endif

@@ -39,23 +39,11 @@ static unsigned planes_beyond(const struct sight *s, struct box b)
     return planes;
 }
 
-/* Classic shadow rays to a sample go on for as far as the light's position is. */
-static struct box box_of_light(const struct light *light)
-{
-    if (light->samples.n)
-        return geometry_bounds(&light->object);
-    struct box box = {light->position, light->position};
-    for (size_t i = 0; i < light->points.n; i++)
-        box = box_add(box, light->points.at[i].position);
-    struct vec3 reach = vec3_all(vec3_length(vec3_sub(box.hi, box.lo)));
-    return (struct box){vec3_sub(box.lo, reach), vec3_add(box.hi, reach)};
-}
-
 /* Bit n: the way from what is seen to the light never leaves plane n. */
 static unsigned planes_of_light(const struct sight *s, const struct light *light)
 {
     bool sun = light->kind == LIGHT_SUN;
-    struct box box = sun ? (struct box){light->position, light->position} : box_of_light(light);
+    struct box box = sun ? (struct box){light->position, light->position} : survey_light_box(light);
     struct box seen = sun ? (struct box){{0, 0, 0}, {0, 0, 0}} : s->seen;
     unsigned planes =
         sun ? frustum_keeps(&s->frustum, light->position) : frustum_within(&s->frustum, box);
