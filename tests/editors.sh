@@ -62,7 +62,7 @@ options()
             print letter "\t" left "\t" argument "\t" help
         }'
 }
-# what an option takes: words, FILE, DIR or ANY
+# what an option takes: words, FILE, DIR, RULES or ANY
 values()
 {
     case $1 in
@@ -73,8 +73,7 @@ values()
     --isa) echo plain generic avx2 avx512 ;;
     --to) echo xml wrt json pov tachyon ;;
     --format) echo text json sarif ;;
-    --warn) echo error $(rules) ;;
-    --no-warn) echo $(rules) ;;
+    --warn | --no-warn) echo RULES ;;
     *) echo ANY ;;
     esac
 }
@@ -126,6 +125,7 @@ part_bash()
     names)
         echo "_wrt_kinds='$(kind_words | line)'"
         echo "_wrt_codes='$(codes | line)'"
+        echo "_wrt_rules='error $(rules | line)'"
         ;;
     esac
 }
@@ -139,7 +139,7 @@ spec_zsh()
         takes = $3 == "." ? "" : $3 ~ /^\[/ ? "=-" : "="
         if ($3 ~ /^\[/) { value = $3; gsub(/[]=[]/, "", value); action = "::" value ":(" value ")" }
         else if ($3 == ".") action = ""
-        else action = ":" $3 ":" ($5 == "FILE" ? "_files" : $5 == "DIR" ? "_files -/" : $5 == "ANY" ? "" : "(" $5 ")")
+        else action = ":" $3 ":" ($5 == "FILE" ? "_files" : $5 == "DIR" ? "_files -/" : $5 == "ANY" ? "" : $5 == "RULES" ? "($rules)" : "(" $5 ")")
         tail = quote "[" help "]" action quote
         if ($1 == ".") printf "        %s%s%s%s\n", quote, $2, takes, substr(tail, 2)
         else printf "        %s(%s %s)%s{%s%s,%s%s}%s\n", quote, $1, $2, quote, $1, takes == "=" ? "+" : "", $2, takes, tail
@@ -158,6 +158,7 @@ part_zsh()
     names)
         echo "kinds=($(kind_words | line))"
         echo "codes=($(codes | line))"
+        echo "rules=(error $(rules | line))"
         ;;
     options)
         commands | cut -f 1 | while read -r command; do
@@ -236,16 +237,16 @@ while IFS= read -r name; do
 done < <(sed -n 's/^OPT([^"]*"\([^"]*\)".*/\1/p' src/cmd/opts.def)
 
 # The program takes every value that is offered.
-while read -r command option; do
-    for value in $(values "$option"); do
+while read -r command option list; do
+    for value in $(${list:-values "$option"}); do
         "$WRT" "$command" "$option" "$value" --help >/dev/null 2>&1 || complain "wrt $command does not take $option $value"
     done
 done <<'EOF'
 render --show
 render --accel
 render --format
-render --warn
-render --no-warn
+render --warn rules
+render --no-warn rules
 EOF
 
 # ---- bash ---------------------------------------------------------------------------------------

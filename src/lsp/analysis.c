@@ -4,7 +4,6 @@
 
 #include "eval/eval.h"
 #include "lint/lint.h"
-#include "lsp/cursor.h"
 #include "syntax/syntax.h"
 #include "validate/validate.h"
 
@@ -36,7 +35,7 @@ static void pass_later_allows(struct diag *diag)
 static void lint(struct analysis *a)
 {
     struct lint l = {.ast = &a->ast, .sources = &a->sources, .diag = &a->diag};
-    if (a->ast.statements && !a->mended.sources.n)
+    if (a->ast.statements)
         lint_run(&l, LINT_TEXT);
     if (a->diag.errors)
         return;
@@ -46,24 +45,8 @@ static void lint(struct analysis *a)
     diag_report_unused_allows(&a->diag);
 }
 
-/* Of a text that ends within a block nothing is left, and while one writes most do: a tree of the
- * same text with its brackets closed. */
-static void parse_mended(struct analysis *a, struct diag *silent)
-{
-    struct str text = {a->source->text, a->source->n};
-    struct buffer all = {0};
-    buffer_str(&all, text);
-    cursor_close_brackets(text, &all);
-    size_t n = all.n;
-    buffer_add(&all, "\0\0", 2);
-    const struct source *source = srcmap_add(&a->mended, a->source->name, all.at, n);
-    if (!source)
-        return;
-    ast_free(&a->ast);
-    syntax_parse(source, &a->ast, silent);
-}
-
-static void evaluate_into(struct analysis *a, const struct lsp_options *options, struct diag *diag)
+/* As the command line goes on after syntax errors. */
+static void evaluate(struct analysis *a, const struct lsp_options *options)
 {
     struct eval_options o = {
         .max_objects = options->max_objects,
@@ -71,24 +54,12 @@ static void evaluate_into(struct analysis *a, const struct lsp_options *options,
         .folders = options->folders,
         .folder_count = options->folder_count,
     };
-    eval_scene(&a->ast, &o, &a->desc, diag);
-}
-
-/* As the command line goes on after syntax errors; beyond that only the names are of use. */
-static void evaluate(struct analysis *a, const struct lsp_options *options)
-{
-    struct diag silent;
-    diag_init(&silent, &a->sources);
     a->parsed = syntax_parse(a->source, &a->ast, &a->diag);
-    if (a->ast.statements && (a->parsed || !a->ast.xml)) {
-        evaluate_into(a, options, &a->diag);
-        if (a->parsed || a->desc.camera)
-            validate_scene(&a->desc, &a->diag);
-    } else if (!a->ast.xml) {
-        parse_mended(a, &silent);
-        evaluate_into(a, options, &silent);
-    }
-    diag_free(&silent);
+    if (!a->parsed && (a->ast.xml || !a->ast.statements))
+        return; /* what follows would be of the mistakes found */
+    eval_scene(&a->ast, &o, &a->desc, &a->diag);
+    if (a->parsed || a->desc.camera)
+        validate_scene(&a->desc, &a->diag);
 }
 
 const struct analysis *analysis_of(struct document *doc, const struct lsp_options *options)
@@ -119,6 +90,5 @@ void analysis_free(struct analysis *a)
     ast_free(&a->ast);
     diag_free(&a->diag);
     srcmap_free(&a->sources);
-    srcmap_free(&a->mended);
     free(a);
 }

@@ -11,9 +11,8 @@
 
 struct analysis {
     struct srcmap sources;
-    struct srcmap mended; /* the text with its brackets closed, at the same offsets */
-    struct diag diag;     /* sorted */
-    struct ast ast;       /* of the text, or of the mended one */
+    struct diag diag; /* sorted */
+    struct ast ast;
     struct desc desc;
     struct bindings bindings;
     bool parsed;                 /* without syntax errors */

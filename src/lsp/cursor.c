@@ -119,21 +119,9 @@ static void close_block(struct scan *s)
     s->out->blocks.n--;
 }
 
-/* A closing bracket closes the last one if that is of its kind. */
-static void note_bracket(struct buffer *open, char c)
-{
-    static const char opening[] = "{([", closing[] = "})]";
-    const char *close = memchr(closing, c, sizeof closing - 1);
-    if (memchr(opening, c, sizeof opening - 1))
-        buffer_add(open, &c, 1);
-    else if (close && open->n && open->at[open->n - 1] == opening[close - closing])
-        open->n--;
-}
-
 static void take_mark(struct scan *s)
 {
     struct cursor_block *b = innermost(s);
-    note_bracket(&s->out->open, *s->at);
     switch (*s->at) {
     case '{':
         open_block(s);
@@ -209,19 +197,8 @@ void cursor_find(struct cursor *c, struct str text, uint32_t at)
     c->place = place_of(&s);
 }
 
-void cursor_close_brackets(struct str text, struct buffer *out)
-{
-    struct cursor c;
-    cursor_find(&c, text, (uint32_t)text.n);
-    buffer_puts(out, "\n");
-    for (size_t i = c.open.n; i > 0; i--)
-        buffer_puts(out, c.open.at[i - 1] == '{' ? "}" : c.open.at[i - 1] == '(' ? ")" : "]");
-    cursor_free(&c);
-}
-
 void cursor_free(struct cursor *c)
 {
     vec_free(&c->blocks);
     vec_free(&c->given);
-    buffer_free(&c->open);
 }

@@ -3,7 +3,7 @@
 #ifndef WRT_LSP_CURSOR_H
 #define WRT_LSP_CURSOR_H
 
-#include "base/buffer.h"
+#include "base/str.h"
 #include "base/vec.h"
 
 #include <stdbool.h>
@@ -31,13 +31,10 @@ struct cursor {
     enum cursor_place place;
     VEC(struct cursor_block) blocks; /* the open ones, outermost first; the first is the file */
     VEC(struct str) given;           /* properties of the open blocks before the place */
-    struct buffer open;              /* all brackets that are open, outermost first */
 };
 
 /* Free with cursor_free. */
 void cursor_find(struct cursor *c, struct str text, uint32_t at);
-/* Adds what closes all brackets that the text leaves open. */
-void cursor_close_brackets(struct str text, struct buffer *out);
 void cursor_free(struct cursor *c);
 
 #endif

@@ -5,7 +5,8 @@
 #
 # tests/lsp/sessions/NAME.session is what a client says, line by line, and under it what the server answers
 # (see session.c).  Each is played against WRT in a folder with the files of tests/lsp/files, and must
-# come out as it is written; --update writes it so.
+# come out as it is written.  `wrt lsp` has the options that a line `# options: ...` of the session names,
+# else --no-warn all; --update writes it so.
 set -u
 export LC_ALL=C
 here=$(cd "$(dirname "$0")" && pwd)
@@ -33,8 +34,10 @@ export UBSAN_OPTIONS="${UBSAN_OPTIONS:+$UBSAN_OPTIONS:}exitcode=134"
 failed=0
 for name in "$@"; do
     session=$here/sessions/$name.session
+    options=$(sed -n 's/^# options: //p' "$session")
+    [ -n "$options" ] || options='--no-warn all'
     # what the server says on standard error comes last
-    (cd "$work/files" && "$SESSION" "$session" ${WRT_WRAPPER-} "$WRT" lsp 2>"$work/err" >"$work/out")
+    (cd "$work/files" && "$SESSION" "$session" ${WRT_WRAPPER-} "$WRT" lsp $options 2>"$work/err" >"$work/out")
     status=$?
     sed 's/^/<2 /' "$work/err" >>"$work/out"
     if [ $status = 0 ] && [ $update = yes ] && ! cmp -s "$session" "$work/out"; then

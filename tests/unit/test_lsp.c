@@ -3,7 +3,6 @@
 
 #include "unit.h"
 
-#include "lsp/cursor.h"
 #include "lsp/position.h"
 #include "lsp/uri.h"
 
@@ -109,28 +108,6 @@ START_TEST(paths_make_uris)
 }
 END_TEST
 
-static const struct {
-    const char *text, *closing;
-} open_texts[] = {
-    {"", ""},
-    {"sphere { }", ""},
-    {"group { sphere { center: (1, [2", "])}}"},
-    {"sphere { // {", "}"},
-    {"sphere { /* { */ ( \"{\" \"\\\"{\"", ")}"},
-    {"} ) ] {", "}"}, /* nothing to close before */
-    {"( { ) }", ")"}, /* not of a kind: left alone */
-};
-
-START_TEST(brackets_are_closed)
-{
-    struct buffer out = {0};
-    cursor_close_brackets((struct str){open_texts[_i].text, strlen(open_texts[_i].text)}, &out);
-    buffer_add(&out, "", 1);
-    ck_assert_str_eq(out.at + 1, open_texts[_i].closing); /* behind a newline */
-    buffer_free(&out);
-}
-END_TEST
-
 Suite *lsp_suite(void)
 {
     Suite *s = suite_create("lsp");
@@ -140,7 +117,6 @@ Suite *lsp_suite(void)
     tcase_add_test(t, an_empty_text_has_a_line);
     tcase_add_loop_test(t, uris_name_paths, 0, COUNT(uris));
     tcase_add_test(t, paths_make_uris);
-    tcase_add_loop_test(t, brackets_are_closed, 0, COUNT(open_texts));
     suite_add_tcase(s, t);
     return s;
 }
