@@ -15,6 +15,7 @@ int main(void)
     srunner_add_suite(runner, eval_suite());
     srunner_add_suite(runner, language_suite());
     srunner_add_suite(runner, lower_suite());
+    srunner_add_suite(runner, lint_suite());
     srunner_add_suite(runner, lsp_suite());
     srunner_add_suite(runner, export_suite());
     srunner_add_suite(runner, image_suite());

@@ -15,6 +15,7 @@ Suite *image_suite(void);
 Suite *kernels_suite(void);
 Suite *language_suite(void);
 Suite *instance_suite(void);
+Suite *lint_suite(void);
 Suite *lower_suite(void);
 Suite *lsp_suite(void);
 Suite *mesh_suite(void);
