@@ -14,7 +14,7 @@
 /* Warnings that are told as errors keep nothing from being looked for. */
 static bool is_sound(const struct frontend *f)
 {
-    return f->diag.errors == f->diag.raised;
+    return diag_failures(&f->diag) == 0;
 }
 
 /* Everything that can be found in a scene that was loaded. */

@@ -200,6 +200,12 @@ void diag_allow(struct diag *d, struct span where, struct span name);
 /* Reports the comments that silenced nothing so far. */
 void diag_report_unused_allows(struct diag *d);
 
+/* Errors by nature: a warning that is told as one keeps nothing from going on. */
+static inline size_t diag_failures(const struct diag *d)
+{
+    return d->errors - d->raised;
+}
+
 /* True when further errors would only be counted: looking for more is of no use. */
 static inline bool diag_full(const struct diag *d)
 {

@@ -95,7 +95,7 @@ static void run(const struct source *source, int start_token, struct ast *out, s
 bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag)
 {
     struct str text = {source->text, source->n};
-    size_t errors = diag->errors;
+    size_t failures = diag_failures(diag);
     ast_init(out, source, syntax_is_xml(text));
     if (!str_trim(text).n)
         diag_report(diag, DIAG_EMPTY_FILE, (struct span){source->base, source->base},
@@ -103,7 +103,7 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
     else
         run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, out, diag);
     syntax_find_allows(out, diag);
-    return diag->errors == errors;
+    return diag_failures(diag) == failures;
 }
 
 /* True when the tree takes a component that no value has, as in `wood.png`. */
