@@ -1,5 +1,5 @@
 #!/bin/sh
-# The property tables of wrt.5 are those that the schema makes, and its examples are scenes.
+# The tables of wrt.5 are those that the program makes, and its examples are scenes.
 #
 #   manual.sh [--update]
 set -u
@@ -26,6 +26,7 @@ insert()
 }
 cp $manual "$work/wanted"
 insert PROPERTIES "${WRT:-build/wrt}" doc --man
+insert FUNCTIONS "${WRT:-build/wrt}" doc --man functions
 insert DIAGNOSTICS "${WRT:-build/wrt}" explain --man
 if [ "${1-}" = --update ]; then
     cmp -s "$work/wanted" $manual || cp "$work/wanted" $manual

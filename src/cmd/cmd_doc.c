@@ -1,9 +1,11 @@
-/* The schema, readable: `wrt doc`, `wrt doc sphere`, `wrt doc sphere.radius`, and `wrt doc radius`
- * for what has such a property.  Names are native or XML's. */
+/* The schema, readable: `wrt doc`, `wrt doc sphere`, `wrt doc sphere.radius`, `wrt doc light.shape`
+ * for what a light of any kind has, and `wrt doc radius` for what has such a property; names are
+ * native or XML's.  Likewise the functions and statements of the native language. */
 #include "config.h"
 
 #include "cmd/commands.h"
 
+#include "eval/signature.h"
 #include "schema/describe.h"
 
 /* The names that were asked for. */
@@ -52,7 +54,8 @@ static void add_overview(struct buffer *out)
         buffer_puts(out, "\n");
     }
     buffer_puts(out, "'wrt doc KIND' shows the properties of a kind, 'wrt doc KIND.PROPERTY' all "
-                     "about one\n");
+                     "about one;\n'wrt doc functions' and 'wrt doc statements' list those of the "
+                     "native language\n");
 }
 
 static void add_line(struct buffer *out, enum schema_prop_id id)
@@ -113,15 +116,17 @@ static void add_property(struct buffer *out, enum schema_kind kind, enum schema_
     buffer_puts(out, "\n");
 }
 
-/* All properties of that name, each once; false when there is none. */
-static bool add_properties(struct buffer *out, struct str name)
+/* All properties of that name in a group, or in all (SCHEMA_GROUPS), each once; false when there is
+ * none. */
+static bool add_properties(struct buffer *out, enum schema_group group, struct str name)
 {
     size_t before = out->n;
     for (int p = 0; p < SCHEMA_PROPS; p++) {
         enum schema_prop_id id = (enum schema_prop_id)p;
         int k = 0;
         while (k < SCHEMA_KINDS &&
-               !(schema_has((enum schema_kind)k, id) && find_prop((enum schema_kind)k, name) == id))
+               !((group == SCHEMA_GROUPS || schema_kinds[k].group == group) &&
+                 schema_has((enum schema_kind)k, id) && find_prop((enum schema_kind)k, name) == id))
             k++;
         if (k == SCHEMA_KINDS)
             continue;
@@ -166,6 +171,17 @@ static int unknown_property(enum schema_kind kind, struct str name)
     return unknown(name, what, list, &nearest);
 }
 
+static int unknown_in_group(enum schema_group group, struct str name)
+{
+    char what[64];
+    struct str_nearest nearest = str_nearest_to(name);
+    for (int k = 0; k < SCHEMA_KINDS; k++)
+        if (schema_kinds[k].group == group)
+            try_props(&nearest, (enum schema_kind)k);
+    snprintf(what, sizeof what, "property of any %s called", schema_group_name(group));
+    return unknown(name, what, "", &nearest);
+}
+
 static int unknown_name(struct str name, bool props_too)
 {
     struct str_nearest nearest = str_nearest_to(name);
@@ -177,34 +193,55 @@ static int unknown_name(struct str name, bool props_too)
         if (props_too)
             try_props(&nearest, (enum schema_kind)k);
     }
-    return unknown(name, props_too ? "kind or property" : "kind", "", &nearest);
+    if (props_too)
+        signature_try_names(&nearest);
+    return unknown(name, props_too ? "kind, property, function or statement" : "kind", "",
+                   &nearest);
 }
 
 /* ---- the command ----------------------------------------------------------------------------- */
 
-static int answer(struct buffer *out, const struct question *q)
+static enum schema_group find_group(struct str name)
+{
+    int g = 0;
+    while (g < SCHEMA_GROUPS && !str_is(name, schema_group_name((enum schema_group)g)))
+        g++;
+    return (enum schema_group)g;
+}
+
+static int answer_property(struct buffer *out, const struct question *q)
 {
     enum schema_kind kind = find_kind(q->kind);
-    if (q->prop.n) {
-        enum schema_prop_id id = kind == SCHEMA_KINDS ? SCHEMA_PROPS : find_prop(kind, q->prop);
-        if (kind == SCHEMA_KINDS)
-            return unknown_name(q->kind, false);
-        if (id == SCHEMA_PROPS)
-            return unknown_property(kind, q->prop);
+    enum schema_group group = find_group(q->kind);
+    enum schema_prop_id id = kind == SCHEMA_KINDS ? SCHEMA_PROPS : find_prop(kind, q->prop);
+    if (id != SCHEMA_PROPS)
         add_property(out, kind, id);
-        return 0;
-    }
-    if (kind != SCHEMA_KINDS) {
+    else if (kind != SCHEMA_KINDS)
+        return unknown_property(kind, q->prop);
+    else if (group == SCHEMA_GROUPS)
+        return unknown_name(q->kind, false);
+    else if (!add_properties(out, group, q->prop))
+        return unknown_in_group(group, q->prop);
+    return 0;
+}
+
+/* A group's word may be that of a statement, too. */
+static int answer(struct buffer *out, struct str name)
+{
+    enum schema_kind kind = find_kind(name);
+    enum schema_group group = find_group(name);
+    if (kind != SCHEMA_KINDS)
         add_kind(out, kind);
-        return 0;
-    }
-    for (int g = 0; g < SCHEMA_GROUPS; g++) {
-        if (str_is(q->kind, schema_group_name((enum schema_group)g))) {
-            add_group(out, (enum schema_group)g);
-            return 0;
-        }
-    }
-    return add_properties(out, q->kind) ? 0 : unknown_name(q->kind, true);
+    else if (group != SCHEMA_GROUPS) {
+        add_group(out, group);
+        buffer_puts(out, "\n");
+    } else if (str_is(name, "functions"))
+        signature_list_functions(out);
+    else if (str_is(name, "statements"))
+        signature_list_statements(out);
+    bool told = signature_describe_statement(out, name) || signature_describe_function(out, name);
+    return told || out->n || add_properties(out, SCHEMA_GROUPS, name) ? 0
+                                                                      : unknown_name(name, true);
 }
 
 /* `light point.intensity`, as one argument or several. */
@@ -227,10 +264,14 @@ int command_doc(const struct options *o)
     struct question q = {.kind = {all.at, n}};
     if (point)
         q.prop = (struct str){point + 1, all.n - n - 1};
-    if (o->manual)
+    if (o->manual && str_is(all, "functions"))
+        signature_manual(&out);
+    else if (o->manual)
         describe_manual(&out);
+    else if (q.prop.n)
+        status = answer_property(&out, &q);
     else if (all.n)
-        status = answer(&out, &q);
+        status = answer(&out, q.kind);
     else
         add_overview(&out);
     if (out.n)

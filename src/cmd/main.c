@@ -44,8 +44,8 @@ static const struct command {
      "serve an editor: the language server protocol on standard input and output"},
     {"uv", FOR_UV, command_uv, "uv FILE.wrl [-o FILE]",
      "make a UV list of a VRML 2.0 file's texture coordinates"},
-    {"doc", FOR_DOC, command_doc, "doc [KIND[.PROPERTY]]",
-     "what scenes are made of: kinds and their properties"},
+    {"doc", FOR_DOC, command_doc, "doc [NAME[.PROPERTY]]",
+     "what scenes are made of: kinds, properties, functions, statements"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

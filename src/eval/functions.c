@@ -2,6 +2,7 @@
 #include "config.h"
 
 #include "eval/context.h"
+#include "eval/signature.h"
 #include "math/rng.h"
 
 #include <math.h>
@@ -485,25 +486,6 @@ static bool fits(char type, const struct value *v)
     }
 }
 
-static const char *type_words(char type)
-{
-    static const struct {
-        char type;
-        const char *words;
-    } rows[] = {{'n', "a number"},
-                {'u', "a number or an angle"},
-                {'a', "an angle"},
-                {'f', "a number or a vector"},
-                {'c', "a number, an angle or a vector"},
-                {'v', "a vector"},
-                {'3', "a vector of three"},
-                {'s', "a list, a string or a vector"}};
-    size_t i = 0;
-    while (rows[i].type != type)
-        i++;
-    return rows[i].words;
-}
-
 /* `30` becomes `30deg`, `x` becomes `x * 1deg`, `x + 1` becomes `(x + 1) * 1deg`. */
 static void offer_units(struct eval *e, struct diag_entry *entry, struct span span)
 {
@@ -532,7 +514,7 @@ static bool check_argument(const struct call *c, uint32_t i)
     struct str name = builtin_parameter(c->f, i);
     struct diag_entry *entry =
         diag_report(c->e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s%s%.*s%s, but this is %s",
-                    c->f->name, type_words(type), name.n ? " as '" : "", STR_ARG(name),
+                    c->f->name, signature_type(type), name.n ? " as '" : "", STR_ARG(name),
                     name.n ? "'" : "", value_type_name(v));
     if (type == 'a' && v->type == VALUE_NUMBER)
         offer_units(c->e, entry, v->span);
