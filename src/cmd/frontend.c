@@ -2,6 +2,7 @@
 
 #include "cmd/frontend.h"
 
+#include "base/buffer.h"
 #include "base/file.h"
 #include "base/thread.h"
 #include "eval/eval.h"
@@ -36,23 +37,33 @@ const struct source *frontend_read(struct frontend *f, const char *path)
     return s;
 }
 
-/* Each -D as an expression; the text becomes a source of its own. */
+/* The value of a -D as a source of its own; its name starts with `<`, as it is no file. */
+static const struct source *add_define(struct frontend *f, struct str name, const char *value)
+{
+    size_t n = strlen(value);
+    char *copy = mem_alloc(n + 2, 1);
+    struct buffer title = {0};
+    memcpy(copy, value, n);
+    buffer_printf(&title, "<-D %.*s>%c", STR_ARG(name), 0);
+    const struct source *s = srcmap_add(&f->sources, title.at, copy, n);
+    if (!s)
+        mem_exhausted(n);
+    buffer_free(&title);
+    return s;
+}
+
+/* Each -D as an expression. */
 static struct eval_define *parse_defines(struct frontend *f, const struct options *o)
 {
     struct eval_define *defines = mem_zalloc(o->defines.n, sizeof *defines);
     vec_reserve(&f->defines, o->defines.n); /* nodes are pointed to */
     for (size_t i = 0; i < o->defines.n; i++) {
         const char *text = o->defines.at[i], *value = strchr(text, '=') + 1;
-        size_t n = strlen(value);
-        char *copy = mem_alloc(n + 2, 1);
-        memcpy(copy, value, n);
-        const struct source *s = srcmap_add(&f->sources, "<-D>", copy, n);
-        if (!s)
-            mem_exhausted(n);
+        struct str name = {text, (size_t)(value - 1 - text)};
         struct ast ast;
-        syntax_parse_value(&f->sources, s, &ast);
+        syntax_parse_value(&f->sources, add_define(f, name, value), &ast);
         vec_push(&f->defines, ast);
-        defines[i] = (struct eval_define){{text, (size_t)(value - 1 - text)}, ast.statements};
+        defines[i] = (struct eval_define){name, ast.statements};
     }
     return defines;
 }

@@ -57,7 +57,7 @@ void info_files(const struct info *i, struct info_files *out)
     const struct desc *d = &i->frontend.desc;
     *out = (struct info_files){0};
     for (size_t k = 0; k < sources->sources.n; k++)
-        if (sources->sources.at[k]->name[0] != '<') /* no file: <stdin>, <-D> */
+        if (sources->sources.at[k]->name[0] != '<') /* no file: <stdin>, <-D size> */
             add_path(out, sources->sources.at[k]->name);
     for (size_t k = 0; k < d->lights.n; k++)
         add_shape(out, i, d->lights.at[k]);

@@ -46,6 +46,10 @@ static bool eval_property_value(struct eval *e, enum schema_prop_id id,
     const struct ast_node *node = property->children;
     if (node && schema_props[id].type == TYPE_WORD && node->kind == AST_NAME)
         return eval_word(e, id, node, out);
+    if (node && node->kind == AST_NAME && !e->given_up && !scope_find(e, node->name)) {
+        report_undefined(e, id, node);
+        return false;
+    }
     struct value v = node ? eval_value(e, node) : plain_value(e, property);
     report_style(e, id, property, &v);
     return value_convert(e, id, &v, out);
@@ -140,8 +144,9 @@ static struct span label_span(struct eval *e, const struct ast_node *node)
 static enum schema_kind light_kind(struct eval *e, const struct ast_node *node)
 {
     if (!node->label.n) {
-        diag_report(e->diag, DIAG_MISSING_PROPERTY, node->name_span,
-                    "'light' needs a kind: 'light point' or 'light area'");
+        diag_report(e->diag, DIAG_MISSING_PROPERTY, node->name_span, "'light' needs a kind: %s",
+                    e->out->model == SCHEMA_MODERN ? "'light point', 'light area' or 'light sun'"
+                                                   : "'light point' or 'light area'");
         return SCHEMA_KINDS;
     }
     enum schema_kind kind = schema_find_kind(SCHEMA_LIGHT, node->label, false);
@@ -185,9 +190,13 @@ static void report_unknown_statement(struct eval *e, const struct ast_node *node
                                            "unknown kind '%.*s'", STR_ARG(node->name));
     if (b && b->kind == BINDING_TEMPLATE) {
         diag_note(entry, "a template is used with parentheses: '%.*s(...)'", STR_ARG(node->name));
-        return;
+    } else if (schema_find_kind(SCHEMA_MATERIAL, node->name, false) != SCHEMA_KINDS) {
+        struct str label = node->label.n ? node->label : str_of("NAME");
+        diag_note(entry, "a material gets a name by 'material %.*s = %.*s { ... }'", STR_ARG(label),
+                  STR_ARG(node->name));
+    } else {
+        add_standing_kinds(e, entry, node);
     }
-    add_standing_kinds(e, entry, node);
 }
 
 /* ---- groups ---- */
@@ -308,6 +317,7 @@ static void eval_group(struct eval *e, const struct ast_node *node)
     group_open(e, &g, node, node->children);
     e->inside |= INSIDE_GROUP;
     scope_open(e, &scope, outer);
+    scope.statements = node->children;
     for (const struct ast_node *m = node->children; m && !eval_stopped(e); m = m->next)
         if (m->kind == AST_PROPERTY)
             eval_property(e, &e->group_arena, g.object, m);
@@ -354,7 +364,8 @@ void eval_object(struct eval *e, const struct ast_node *node)
 static void report_unknown_template(struct eval *e, const struct ast_node *node,
                                     const struct binding *b)
 {
-    if (b ? b->kind == BINDING_VALUE && b->value.type == VALUE_ERROR : scope_lost(e, node->name, node->name_span))
+    if (b ? b->kind == BINDING_VALUE && b->value.type == VALUE_ERROR
+          : scope_lost(e, node->name, node->name_span))
         return;
     struct diag_entry *entry = diag_report(
         e->diag, DIAG_UNKNOWN_NAME, node->name_span,
@@ -364,7 +375,7 @@ static void report_unknown_template(struct eval *e, const struct ast_node *node,
         diag_note(entry, "a function gives a value; it is no statement");
     struct str_nearest nearest = str_nearest_to(node->name);
     scope_try_names(e, &nearest, 1u << BINDING_TEMPLATE);
-    diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
+    report_meant(e, entry, node, str_nearest_found(&nearest));
     if (schema_find_kind(SCHEMA_SURFACE, node->name, false) != SCHEMA_KINDS)
         diag_note(entry, "a surface is written '%.*s { ... }'", STR_ARG(node->name));
 }

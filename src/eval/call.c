@@ -3,6 +3,7 @@
 
 #include "base/buffer.h"
 #include "eval/context.h"
+#include "eval/signature.h"
 
 /* Calls of fn may nest this deep. */
 enum { CALLS_LIMIT = 256 };
@@ -201,7 +202,10 @@ static void report_unknown_function(struct eval *e, const struct ast_node *node)
                                            "there is no function '%.*s'", STR_ARG(node->name));
     struct str_nearest nearest = str_nearest_to(node->name);
     scope_try_names(e, &nearest, 1u << BINDING_FUNCTION | 1u << BINDING_BUILTIN);
-    diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
+    struct str meant = signature_meant(node->name);
+    report_meant(e, entry, node, meant.n ? meant : str_nearest_found(&nearest));
+    if (str_is(node->name, "pow"))
+        diag_note(entry, "a power is written 'x ^ y'");
     if (schema_find_kind(SCHEMA_MATERIAL, node->name, false) != SCHEMA_KINDS)
         diag_note(entry, "a material is written '%.*s { ... }'", STR_ARG(node->name));
 }

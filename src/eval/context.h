@@ -52,6 +52,7 @@ struct binding {
     struct str name;
     struct span span; /* of the name in its definition */
     enum binding_kind kind;
+    bool param;          /* -D may give it another value */
     uint32_t parameters; /* functions and templates: how many */
     union {
         struct value value;
@@ -76,6 +77,7 @@ struct scope {
     size_t n;
     struct map map; /* to struct binding, once there are many */
     struct fallback *fallbacks;
+    const struct ast_node *statements; /* all that it is made of, or NULL */
 };
 
 /* ---- where evaluation stands ---- */
@@ -169,8 +171,8 @@ void scope_close(struct eval *e, struct scope *outer);
 /* The innermost binding of a name; NULL: none. */
 struct binding *scope_find(const struct eval *e, struct str name);
 
-/* True when it was told that the name at this place is unknown: at another place, or it may stand in
- * what did not parse. */
+/* True when it was told that the name at this place is unknown: at another place, or it may stand
+ * in what did not parse. */
 bool scope_told(struct eval *e, struct str name, struct span at);
 /* The same of a name that may be defined in a file that was not read. */
 bool scope_lost(struct eval *e, struct str name, struct span at);
@@ -183,6 +185,8 @@ void scope_add(struct scope *s, struct binding *b);
 /* Brings all names of a file that was read to the current scope. */
 void scope_import(struct eval *e, const struct scope *from, struct span span);
 
+/* Counts a name that is looked at for a message's sake; false when there were too many. */
+bool scope_may_try(struct eval *e);
 /* Offers the names in sight for "did you mean", unless that was asked too often among too many. */
 void scope_try_names(struct eval *e, struct str_nearest *nearest, unsigned binding_kinds);
 /* Likewise the names of a map. */
@@ -233,6 +237,14 @@ void report_unknown_kind(struct eval *e, enum schema_group group, struct str nam
 /* Reports a word that the property does not take. */
 void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word, struct span span,
                          bool xml);
+
+/* Reports a name that has no meaning, as the value of the property or of something else
+ * (SCHEMA_PROPS). */
+void report_undefined(struct eval *e, enum schema_prop_id id, const struct ast_node *node);
+/* Shows where the node's name, which has no meaning here, gets one; otherwise offers what was
+ * probably meant. */
+void report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
+                  struct str meant);
 
 /* Values that are right and yet look like a mistake; nothing unless findings of this rule are
  * wanted. */

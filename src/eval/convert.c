@@ -219,6 +219,18 @@ static void add_name(struct eval *e, struct diag_entry *entry, const struct valu
     diag_fix(entry, v->span, DIAG_FIX_SAFE, "%.*s", STR_ARG(v->string));
 }
 
+/* Two numbers, one of them not whole. */
+static bool report_size(struct eval *e, const struct schema_prop *p, const struct value *v)
+{
+    bool pair = p->type == TYPE_SIZE && v->type == VALUE_VECTOR && v->n == 2 && !v->angles;
+    for (uint32_t i = 0; pair && i < v->n; i++)
+        if (v->number[i] != floor(v->number[i]))
+            diag_report(e->diag, DIAG_WRONG_TYPE, v->span,
+                        "'%s' takes two whole numbers, but %c is %.17g", p->native, "xy"[i],
+                        v -> number[i]);
+    return pair;
+}
+
 static void report_misfit(struct eval *e, enum schema_prop_id id, const struct value *v)
 {
     const struct schema_prop *p = &schema_props[id];
@@ -232,6 +244,8 @@ static void report_misfit(struct eval *e, enum schema_prop_id id, const struct v
                     "'%s' takes a whole number, but this is %.17g", p->native, v->number[0]);
         return;
     }
+    if (report_size(e, p, v))
+        return;
     struct diag_entry *entry =
         diag_report(e->diag, DIAG_WRONG_TYPE, v->span, "'%s' takes %s, but this is %s", p->native,
                     schema_type_name(p->type), value_type_name(v));

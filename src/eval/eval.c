@@ -103,13 +103,28 @@ const struct diag_frame *frame_keep(struct eval *e)
 
 /* ---- a scene ---- */
 
+static void report_unused_define(struct eval *e, struct str name)
+{
+    struct str_nearest nearest = str_nearest_to(name);
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_UNKNOWN_PARAM, (struct span){0},
+                    "-D %.*s: the scene has no param of this name", STR_ARG(name));
+    for (const struct binding *b = e->scope->newest; b && scope_may_try(e); b = b->next)
+        if (b->param)
+            str_nearest_try(&nearest, b->name);
+    struct str meant = str_nearest_found(&nearest);
+    const struct binding *same = scope_find(e, name);
+    if (meant.n)
+        diag_note(entry, "did you mean '%.*s'?", STR_ARG(meant));
+    else if (same && span_known(same->span))
+        diag_label(entry, same->span, "only what 'param' defines may be replaced");
+}
+
 static void report_unused_defines(struct eval *e)
 {
     for (size_t i = 0; i < e->options->define_count; i++)
         if (!e->define_used[i])
-            diag_report(e->diag, DIAG_UNKNOWN_PARAM, (struct span){0},
-                        "-D %.*s: the scene has no param of this name",
-                        STR_ARG(e->options->defines[i].name));
+            report_unused_define(e, e->options->defines[i].name);
 }
 
 bool eval_scene(const struct ast *ast, const struct eval_options *options, struct desc *out,

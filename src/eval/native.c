@@ -5,11 +5,14 @@
 
 /* ---- names ---- */
 
-static void bind_value(struct eval *e, const struct ast_node *node, const struct value *v)
+/* NULL after reporting that the scope has the name. */
+static struct binding *bind_value(struct eval *e, const struct ast_node *node,
+                                  const struct value *v)
 {
     struct binding *b = scope_bind(e, node->name, node->name_span, BINDING_VALUE);
     if (b)
         b->value = *v;
+    return b;
 }
 
 static void eval_let(struct eval *e, const struct ast_node *node)
@@ -31,17 +34,51 @@ static struct value eval_define_value(struct eval *e, const struct ast_node *giv
                           .spelt = given->span.begin};
 }
 
+/* One number may stand for several. */
+static bool same_type(const struct value *a, const struct value *b)
+{
+    if (a->type == VALUE_OBJECT && b->type == VALUE_OBJECT)
+        return schema_kinds[a->object->kind].group == schema_kinds[b->object->kind].group;
+    return a->type == b->type || (value_is_numeric(a) && value_is_numeric(b));
+}
+
+/* A text that is no expression has no place but where it starts. */
+static void report_define(struct eval *e, const struct ast_node *param, const struct value *own,
+                          const struct value *given)
+{
+    const struct source *s = srcmap_source(e->diag->sources, given->span.begin);
+    bool plain = given->span.begin == given->span.end;
+    struct span span = plain ? (struct span){s->base, s->base + s->n} : given->span;
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_WRONG_TYPE, span, "the param '%.*s' is %s, but this is %s",
+                    STR_ARG(param->name), value_type_name(own), value_type_name(given));
+    diag_label(entry, param->name_span, "the param and its own value");
+    if (plain)
+        diag_note(entry, "what is no expression is taken as a string");
+}
+
+static struct value eval_define(struct eval *e, size_t i, const struct ast_node *param,
+                                const struct value *own)
+{
+    struct value v = eval_define_value(e, e->options->defines[i].value, own);
+    e->define_used[i] = true;
+    vec_push(&e->out->overridden, param->name_span);
+    if (v.type == VALUE_ERROR || own->type == VALUE_ERROR || same_type(own, &v))
+        return v;
+    report_define(e, param, own, &v);
+    return value_error(v.span);
+}
+
 static void eval_param(struct eval *e, const struct ast_node *node)
 {
-    struct value v = eval_value(e, node->children);
-    for (size_t i = 0; i < e->options->define_count; i++) {
-        if (!str_equal(e->options->defines[i].name, node->name))
-            continue;
-        v = eval_define_value(e, e->options->defines[i].value, &v);
-        e->define_used[i] = true;
-        vec_push(&e->out->overridden, node->name_span);
-    }
-    bind_value(e, node, &v);
+    const struct value own = eval_value(e, node->children);
+    struct value v = own;
+    for (size_t i = 0; i < e->options->define_count; i++)
+        if (str_equal(e->options->defines[i].name, node->name))
+            v = eval_define(e, i, node, &own);
+    struct binding *b = bind_value(e, node, &v);
+    if (b)
+        b->param = true;
 }
 
 /* `material a = v` and `texture a = v`: a let that says what v is. */
@@ -266,6 +303,7 @@ void eval_statement(struct eval *e, const struct ast_node *node)
 void eval_statements(struct eval *e, const struct ast_node *first)
 {
     bool damaged = false; /* properties right behind what did not parse are left over from it */
+    e->scope->statements = first;
     for (const struct ast_node *s = first; s && !eval_stopped(e); s = s->next) {
         if (s->kind != AST_PROPERTY)
             eval_statement(e, s);

@@ -114,6 +114,73 @@ void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word
     diag_note(entry, "there are:%s", list);
 }
 
+/* ---- names that are not defined ---- */
+
+static bool defines_name(const struct ast_node *n)
+{
+    return n->kind == AST_LET || n->kind == AST_PARAM || n->kind == AST_MATERIAL ||
+           n->kind == AST_TEXTURE || n->kind == AST_FN || n->kind == AST_DEFINE;
+}
+
+static const struct ast_node *find_later(struct eval *e, struct str name, struct span at)
+{
+    for (const struct scope *s = e->scope; s; s = s->parent)
+        for (const struct ast_node *n = s->statements; n && scope_may_try(e); n = n->next)
+            if (defines_name(n) && str_equal(n->name, name) && n->name_span.begin > at.begin)
+                return n;
+    return NULL;
+}
+
+void report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
+                  struct str meant)
+{
+    const struct ast_node *later = find_later(e, node->name, node->name_span);
+    if (later)
+        diag_label(entry, later->name_span,
+                   "defined later, here; names are defined before they are used");
+    else
+        diag_did_you_mean(entry, node->name_span, meant);
+}
+
+/* Words for colours that scenes elsewhere take, and which have no meaning here. */
+static bool is_colour_word(struct str name)
+{
+    static const char *const words[] = {"black", "white",  "grey",   "gray", "red",   "green",
+                                        "blue",  "yellow", "orange", "pink", "cyan",  "magenta",
+                                        "brown", "purple", "violet", "gold", "silver"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (str_equal_nocase(name, str_of(words[i])))
+            return true;
+    return false;
+}
+
+/* What a name that means nothing was perhaps meant as, where the property expects a value. */
+static void explain_value(struct diag_entry *entry, enum schema_prop_id id, struct str name)
+{
+    enum schema_type type = schema_props[id].type;
+    if (type == TYPE_COLOUR && is_colour_word(name))
+        diag_note(entry,
+                  "a colour is written #rrggbb, rgb(r, g, b) or (r, g, b); 'let %.*s = ...' "
+                  "gives it a name",
+                  STR_ARG(name));
+    else if (type == TYPE_MATERIAL &&
+             schema_find_kind(SCHEMA_MATERIAL, name, false) != SCHEMA_KINDS)
+        diag_note(entry, "a material is written '%.*s { ... }'", STR_ARG(name));
+}
+
+void report_undefined(struct eval *e, enum schema_prop_id id, const struct ast_node *node)
+{
+    if (scope_lost(e, node->name, node->span))
+        return;
+    struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, node->span,
+                                           "'%.*s' is not defined", STR_ARG(node->name));
+    struct str_nearest nearest = str_nearest_to(node->name);
+    scope_try_names(e, &nearest, 1u << BINDING_VALUE);
+    report_meant(e, entry, node, str_nearest_found(&nearest));
+    if (id != SCHEMA_PROPS)
+        explain_value(entry, id, node->name);
+}
+
 /* ---- style ---- */
 
 static bool is_plain_number(const struct ast_node *node)

@@ -135,14 +135,17 @@ void scope_import(struct eval *e, const struct scope *from, struct span span)
 /* Keeps thousands of unknown names among as many from taking minutes. */
 enum { TRIES_LIMIT = 1000 * 1000 };
 
+bool scope_may_try(struct eval *e)
+{
+    return e->names_tried++ < TRIES_LIMIT;
+}
+
 void scope_try_names(struct eval *e, struct str_nearest *nearest, unsigned binding_kinds)
 {
     for (const struct scope *s = e->scope; s; s = s->parent)
-        for (const struct binding *b = s->newest; b && e->names_tried < TRIES_LIMIT; b = b->next) {
-            e->names_tried++;
+        for (const struct binding *b = s->newest; b && scope_may_try(e); b = b->next)
             if (binding_kinds >> b->kind & 1)
                 str_nearest_try(nearest, b->name);
-        }
 }
 
 void map_try_names(struct eval *e, const struct map *m, struct str_nearest *nearest)

@@ -104,6 +104,21 @@ void signature_list_statements(struct buffer *out)
         buffer_printf(out, "  %s\n      %s\n", statements[i].written, statements[i].doc);
 }
 
+struct str signature_meant(struct str name)
+{
+    static const struct {
+        const char *elsewhere, *here;
+    } rows[] = {{"sine", "sin"},    {"cosine", "cos"},     {"tangent", "tan"},
+                {"arcsin", "asin"}, {"arccos", "acos"},    {"atan", "atan2"},
+                {"mix", "lerp"},    {"norm", "normalize"}, {"magnitude", "length"},
+                {"random", "rand"}, {"ln", "log"},         {"linspace", "steps"},
+                {"string", "str"},  {"size", "len"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (str_is(name, rows[i].elsewhere))
+            return str_of(rows[i].here);
+    return (struct str){0};
+}
+
 void signature_try_names(struct str_nearest *nearest)
 {
     for (int i = 0; i < FUNCTIONS; i++)

@@ -31,6 +31,8 @@ bool signature_describe_statement(struct buffer *out, struct str name);
 void signature_list_functions(struct buffer *out);
 void signature_list_statements(struct buffer *out);
 
+/* The function that has this name in other languages; empty: none. */
+struct str signature_meant(struct str name);
 /* Offers all names for "did you mean". */
 void signature_try_names(struct str_nearest *nearest);
 

@@ -162,17 +162,10 @@ static struct value eval_name(struct eval *e, const struct ast_node *node)
     const struct binding *b = scope_find(e, node->name);
     if (b && b->kind == BINDING_VALUE)
         return b->value;
-    if (b) {
+    if (b)
         report_no_value(e, node, b);
-        return value_error(node->span);
-    }
-    if (scope_lost(e, node->name, node->span))
-        return value_error(node->span);
-    struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_NAME, node->span,
-                                           "'%.*s' is not defined", STR_ARG(node->name));
-    struct str_nearest nearest = str_nearest_to(node->name);
-    scope_try_names(e, &nearest, 1u << BINDING_VALUE);
-    diag_did_you_mean(entry, node->span, str_nearest_found(&nearest));
+    else
+        report_undefined(e, SCHEMA_PROPS, node);
     return value_error(node->span);
 }
 
@@ -200,7 +193,7 @@ static void report_not_constructible(struct eval *e, const struct ast_node *node
         if (constructible_kind(str_of(schema_kinds[k].native)) != SCHEMA_KINDS)
             str_nearest_try(&nearest, str_of(schema_kinds[k].native));
     scope_try_names(e, &nearest, 1u << BINDING_VALUE);
-    diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
+    report_meant(e, entry, node, str_nearest_found(&nearest));
     diag_note(entry,
               "the materials are: lambert phong shiny metal glass emissive; a texture is 'image'");
 }

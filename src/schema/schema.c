@@ -18,6 +18,13 @@ static const struct {
 #include "schema/schema.def"
 };
 
+static const struct {
+    const char *words, *natives;
+} synonyms[] = {
+#define SYNONYM(words_, natives_) {words_, natives_},
+#include "schema/schema.def"
+};
+
 /* Fields of the rows. */
 #define K(id) (UINT32_C(1) << KIND_##id)
 #define REQUIRED .required = IN_BOTH
@@ -107,10 +114,38 @@ enum schema_prop_id schema_find_prop(enum schema_kind kind, struct str name, boo
     return SCHEMA_PROPS;
 }
 
+static bool has_word(const char *list, struct str word)
+{
+    struct str each;
+    for (unsigned n = 0; (each = str_nth_word(list, n)).n; n++)
+        if (str_equal(each, word))
+            return true;
+    return false;
+}
+
+/* The property by its name in the other format, or by one that it has in other programs. */
+static enum schema_prop_id find_synonym(enum schema_kind kind, struct str name, bool xml)
+{
+    unsigned leaf;
+    enum schema_prop_id id = schema_find_prop(kind, name, !xml, &leaf);
+    for (size_t i = 0; id == SCHEMA_PROPS && i < sizeof synonyms / sizeof *synonyms; i++) {
+        struct str native;
+        if (has_word(synonyms[i].words, name))
+            for (unsigned n = 0;
+                 id == SCHEMA_PROPS && (native = str_nth_word(synonyms[i].natives, n)).n; n++)
+                id = schema_find_prop(kind, native, false, &leaf);
+    }
+    return id;
+}
+
 struct str schema_nearest_prop(enum schema_kind kind, enum schema_model model, struct str name,
                                bool xml)
 {
     struct str_nearest nearest = str_nearest_to(name);
+    enum schema_prop_id meant = find_synonym(kind, name, xml);
+    if (meant != SCHEMA_PROPS && schema_props[meant].models >> model & 1 &&
+        !(xml && schema_leaf_count(meant) != 1))
+        return schema_prop_name(meant, xml);
     for (int p = 0; p < SCHEMA_PROPS; p++) {
         enum schema_prop_id id = (enum schema_prop_id)p;
         struct str leaf;

@@ -110,7 +110,8 @@ struct str schema_nearest_kind(enum schema_group group, enum schema_model model,
  * among the property's leaves.  SCHEMA_PROPS: none. */
 enum schema_prop_id schema_find_prop(enum schema_kind kind, struct str name, bool xml,
                                      unsigned *component);
-/* The nearest name that exists in the model. */
+/* What was probably meant, in the model: the name's twin in the other format, a usual synonym, or
+ * the nearest name. */
 struct str schema_nearest_prop(enum schema_kind kind, enum schema_model model, struct str name,
                                bool xml);
 

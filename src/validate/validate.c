@@ -31,17 +31,29 @@ struct validation {
 /* A light's object has no material: only its shape counts. */
 enum role { IN_SCENE, OF_LIGHT };
 
+static bool is_missing(const struct desc_object *o, enum schema_prop_id id, enum role role)
+{
+    return !desc_find(o, id) && !(role == OF_LIGHT && id == PROP_MATERIAL);
+}
+
+/* One error for all that is missing. */
 static void check_required(const struct validation *v, const struct desc_object *o, enum role role)
 {
+    const uint8_t *props = v->required.props[o->kind];
+    struct buffer names = {0};
+    for (uint8_t i = 0; i < v->required.n[o->kind]; i++)
+        if (is_missing(o, (enum schema_prop_id)props[i], role))
+            buffer_printf(&names, "%s'%.*s'", names.n ? ", " : "",
+                          STR_ARG(schema_prop_name((enum schema_prop_id)props[i], o->xml)));
+    if (!names.n)
+        return;
+    struct diag_entry *e = diag_report(v->diag, DIAG_MISSING_PROPERTY, o->span, "%s has no %.*s",
+                                       schema_kind_name(o->kind, o->xml), (int)names.n, names.at);
+    buffer_free(&names);
     for (uint8_t i = 0; i < v->required.n[o->kind]; i++) {
-        enum schema_prop_id id = (enum schema_prop_id)v->required.props[o->kind][i];
-        if (desc_find(o, id) || (role == OF_LIGHT && id == PROP_MATERIAL))
-            continue;
-        struct str name = schema_prop_name(id, o->xml);
-        struct diag_entry *e =
-            diag_report(v->diag, DIAG_MISSING_PROPERTY, o->span, "%s has no '%.*s'",
-                        schema_kind_name(o->kind, o->xml), STR_ARG(name));
-        diag_note(e, "'%.*s': %s", STR_ARG(name), schema_props[id].doc);
+        enum schema_prop_id id = (enum schema_prop_id)props[i];
+        if (is_missing(o, id, role))
+            diag_note(e, "'%.*s': %s", STR_ARG(schema_prop_name(id, o->xml)), schema_props[id].doc);
     }
 }
 
@@ -76,8 +88,13 @@ static void check_range(const struct desc_object *o, const struct desc_prop *p, 
         struct buffer range = {0};
         describe_range(&range, id);
         struct str name = o->xml && n > 1 ? schema_leaf(id, i) : schema_prop_name(id, o->xml);
-        diag_report(diag, DIAG_OUT_OF_RANGE, o->xml && i > 0 ? p->value.second : p->value.span,
-                    "'%.*s' must be %.*s", STR_ARG(name), (int)range.n, range.at);
+        struct span span = o->xml && i > 0 ? p->value.second : p->value.span;
+        if (o->xml || n == 1)
+            diag_report(diag, DIAG_OUT_OF_RANGE, span, "'%.*s' must be %.*s", STR_ARG(name),
+                        (int)range.n, range.at);
+        else
+            diag_report(diag, DIAG_OUT_OF_RANGE, span, "'%.*s' must be %.*s, but %c is %.17g",
+                        STR_ARG(name), (int)range.n, range.at, "xy"[i], p -> value.number[i]);
         buffer_free(&range);
     }
 }
