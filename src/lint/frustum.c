@@ -12,7 +12,8 @@ static void set_side(struct frustum *f, enum frustum_side side, struct vec3 p, s
     f->at[side] = vec3_dot(f->normal[side], p);
 }
 
-/* The plane of the rays through two corners, whose inner side the middle is on. */
+/* The plane of the rays through two corners, anticlockwise seen from the eye: its inner side is the
+ * picture's in every kind of camera. */
 static void set_corner_side(struct frustum *f, enum frustum_side side, const double a[2],
                             const double b[2])
 {
@@ -21,9 +22,7 @@ static void set_corner_side(struct frustum *f, enum frustum_side side, const dou
     struct vec3 along = lens_direction(l, a[0], a[1]);
     struct vec3 other =
         l->parallel ? vec3_sub(lens_origin(l, b[0], b[1]), p) : lens_direction(l, b[0], b[1]);
-    struct vec3 normal = vec3_cross(along, other);
-    struct vec3 inwards = l->parallel ? vec3_sub(l->origin, p) : lens_direction(l, 0, 0);
-    set_side(f, side, p, vec3_dot(normal, inwards) < 0 ? vec3_neg(normal) : normal);
+    set_side(f, side, p, vec3_cross(along, other));
 }
 
 struct frustum frustum_of(const struct camera *c)

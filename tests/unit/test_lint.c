@@ -123,6 +123,8 @@ START_TEST(distances_are_right)
         ck_assert_uint_eq(nearby_prim(&a, q, off * 0.9999, ray.surface), PRIM_NONE);
         ck_assert_uint_le(nearby_prim(&a, q, off * 1.0001, SURFACE_NONE), hit.prim);
         ck_assert(nearby_box(&a, q, off * 1.0001));
+        q = vec3_mad(p, -off * 0.01, normal); /* inside, where another part may be nearer */
+        ck_assert_uint_eq(nearby_prim(&a, q, off * 0.010001, ray.surface), hit.prim);
     }
     accel_free(&a);
     geometry_free(&g);
