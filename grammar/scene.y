@@ -117,7 +117,7 @@ input:
 /* ---- Native ---- */
 
 version:
-  %empty          { parser_missing_version(p); }
+  %empty
 | WRT NUMBER[n]   { parser_version(p, @$, @n, $n); }
 ;
 

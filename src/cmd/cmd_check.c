@@ -29,7 +29,10 @@ static int check_scene(const char *path, const struct options *o)
 int command_check(const struct options *o)
 {
     int status = o->scenes.n ? 0 : usage_error("check: no scene given");
-    for (size_t i = 0; i < o->scenes.n; i++)
-        status = status_worse(status, check_scene(o->scenes.at[i], o));
+    struct options checking = *o;
+    for (size_t i = 0; i < o->scenes.n; i++) {
+        checking.current = i;
+        status = status_worse(status, check_scene(o->scenes.at[i], &checking));
+    }
     return status;
 }

@@ -59,8 +59,11 @@ int command_diff(const struct options *o)
     if (o->scenes.n != 2)
         return usage_error("diff takes two scenes, but %zu %s given", o->scenes.n,
                            o->scenes.n == 1 ? "is" : "are");
-    for (int i = 0; i < 2; i++)
-        status = status_worse(status, load(&sides[i], o->scenes.at[i], o));
+    struct options loading = *o;
+    for (int i = 0; i < 2; i++) {
+        loading.current = (size_t)i;
+        status = status_worse(status, load(&sides[i], o->scenes.at[i], &loading));
+    }
     if (status == 0)
         status = compare(sides);
     for (int i = 0; i < 2; i++) {

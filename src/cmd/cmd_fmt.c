@@ -72,7 +72,10 @@ int command_fmt(const struct options *o)
     for (size_t i = 0; i < o->scenes.n; i++)
         if (o->in_place && strcmp(o->scenes.at[i], "-") == 0)
             return usage_error("standard input cannot be formatted in place");
-    for (size_t i = 0; i < o->scenes.n; i++)
-        status = status_worse(status, format_scene(o->scenes.at[i], o));
+    struct options formatting = *o;
+    for (size_t i = 0; i < o->scenes.n; i++) {
+        formatting.current = i;
+        status = status_worse(status, format_scene(o->scenes.at[i], &formatting));
+    }
     return status;
 }

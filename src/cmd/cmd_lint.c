@@ -114,6 +114,11 @@ static int fix_scene(struct frontend scenes[2], const char *path, const struct o
     buffer_add(&before, s->text, s->n);
     int now = mend(scenes, path, o);
     deliver(&scenes[now], path, (struct str){before.at, before.n}, o);
+    if (o->difference) { /* the file is as it was, and so are the places in it */
+        struct str text = {before.at, before.n};
+        frontend_free(&scenes[now]);
+        load(&scenes[now], path, &text, o);
+    }
     buffer_free(&before);
     return now;
 }
@@ -149,7 +154,9 @@ int command_lint(const struct options *o)
         if (o->fix && strcmp(o->scenes.at[i], "-") == 0)
             return usage_error("standard input cannot be fixed in place");
     int status = o->scenes.n ? 0 : usage_error("lint: no scene given");
-    for (size_t i = 0; i < o->scenes.n; i++)
+    for (size_t i = 0; i < o->scenes.n; i++) {
+        linting.current = i;
         status = status_worse(status, lint_scene(o->scenes.at[i], &linting));
+    }
     return status;
 }

@@ -149,6 +149,8 @@ int frontend_report(struct frontend *f, const struct options *o, enum diag_level
         .format = o->format,
         .colour = text && isatty(STDERR_FILENO) && !(no_color && *no_color),
         .least = least,
+        .begun = o->current > 0,
+        .goes_on = o->current + 1 < o->scenes.n,
     };
     diag_print(&f->diag, &print, text ? stderr : stdout);
     return (int)f->diag.exit;

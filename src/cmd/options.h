@@ -36,6 +36,7 @@ enum stats_format { STATS_NONE, STATS_TEXT, STATS_JSON };
 
 struct options {
     VEC(const char *) scenes;  /* or whatever else the command takes */
+    size_t current;            /* the one under way, for commands that take several */
     VEC(const char *) defines; /* NAME=VALUE */
     VEC(const char *) folders; /* of includes */
     const char *output;        /* or NULL */

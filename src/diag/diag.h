@@ -163,9 +163,9 @@ struct diag {
     size_t kept[2];                   /* entries: errors, others */
     size_t dropped;                   /* errors */
     size_t errors, warnings;          /* all, dropped ones too */
-    size_t raised;                    /* errors that are warnings or notes by nature */
-    enum diag_exit exit;              /* what the errors so far ask for: INPUT wins over RESOURCE */
-    struct diag_entry spare;          /* takes what is dropped */
+    size_t raised; /* warnings and notes told as errors: they keep nothing from being looked for */
+    enum diag_exit exit;     /* what the errors so far ask for: INPUT wins over RESOURCE */
+    struct diag_entry spare; /* takes what is dropped */
 };
 
 void diag_init(struct diag *d, const struct srcmap *sources);
@@ -179,7 +179,7 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
 
 /* What was reported so far. */
 struct diag_mark {
-    size_t entries, kept[2], dropped, errors, warnings;
+    size_t entries, kept[2], dropped, errors, warnings, raised;
     enum diag_exit exit;
 };
 struct diag_mark diag_mark(const struct diag *d);
@@ -229,6 +229,7 @@ struct diag_print_options {
     enum diag_format format;
     bool colour;
     enum diag_level least; /* lower levels are not printed */
+    bool begun, goes_on;   /* SARIF: one log for what is printed before and after, too */
 };
 
 /* Prints all entries in order. */

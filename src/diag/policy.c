@@ -135,6 +135,15 @@ static bool selects_only_errors(const struct diag_selection *s)
     return true;
 }
 
+/* Whether any of these rules is on: what nobody looked for is not found. */
+static bool selects_wanted(const struct diag *d, const struct diag_selection *s)
+{
+    for (int i = 0; i < DIAG_CODES; i++)
+        if (s->has[i] && diag_rules[i].level != DIAG_ERROR && diag_wants(d, (enum diag_code)i))
+            return true;
+    return false;
+}
+
 void diag_report_unused_allows(struct diag *d)
 {
     for (size_t i = 0; i < d->allows.n; i++) {
@@ -143,7 +152,7 @@ void diag_report_unused_allows(struct diag *d)
         if (selects_only_errors(&a->selection))
             diag_report(d, DIAG_UNUSED_ALLOW, a->name,
                         "'%.*s' is an error, which no comment allows", STR_ARG(name));
-        else if (!a->used)
+        else if (!a->used && selects_wanted(d, &a->selection))
             diag_report(d, DIAG_UNUSED_ALLOW, a->name, "'%.*s' is allowed here, and not found",
                         STR_ARG(name));
     }

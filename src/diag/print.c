@@ -30,7 +30,7 @@ void diag_print(struct diag *d, const struct diag_print_options *o, FILE *out)
 {
     diag_sort(d);
     if (o->format == DIAG_FORMAT_SARIF) {
-        diag_print_sarif(d, o->least, out);
+        diag_print_sarif(d, o, out);
         return;
     }
     for (size_t i = 0; i < d->entries.n; i++) {

@@ -159,18 +159,19 @@ static json_t *rules(void)
     return list;
 }
 
-void diag_print_sarif(const struct diag *d, enum diag_level least, FILE *out)
+void diag_print_sarif(const struct diag *d, const struct diag_print_options *o, FILE *out)
 {
     json_t *results = json_array();
     for (size_t i = 0; i < d->entries.n; i++)
-        if (diag_is_shown(d->entries.at[i], least))
+        if (diag_is_shown(d->entries.at[i], o->least))
             json_array_append_new(results, result_of(d, d->entries.at[i]));
-    json_t *log =
-        json_pack("{s:s, s:s, s:[{s:{s:{s:s, s:s, s:o}}, s:s, s:o}]}", "$schema", SCHEMA, "version",
-                  "2.1.0", "runs", "tool", "driver", "name", "wrt", "version", PACKAGE_VERSION,
-                  "rules", rules(), "columnKind", "unicodeCodePoints", "results", results);
-    if (!log || json_dumpf(log, out, JSON_INDENT(1)) != 0)
+    json_t *run = json_pack("{s:{s:{s:s, s:s, s:o}}, s:s, s:o}", "tool", "driver", "name", "wrt",
+                            "version", PACKAGE_VERSION, "rules", rules(), "columnKind",
+                            "unicodeCodePoints", "results", results);
+    if (!o->begun)
+        fputs("{\"$schema\": \"" SCHEMA "\",\n\"version\": \"2.1.0\",\n\"runs\": [\n", out);
+    if (!run || json_dumpf(run, out, JSON_INDENT(1)) != 0)
         fputs("{}", out);
-    putc('\n', out);
-    json_decref(log);
+    fputs(o->goes_on ? ",\n" : "\n]}\n", out);
+    json_decref(run);
 }

@@ -10,14 +10,6 @@
 
 /* ---- native ---- */
 
-void parser_missing_version(struct parser *p)
-{
-    struct span start = {p->source->base, p->source->base};
-    struct diag_entry *e = diag_report(p->diag, DIAG_MISSING_VERSION, start,
-                                       "the scene does not say its version; 'wrt 1' is taken");
-    diag_fix(e, start, DIAG_FIX_SAFE, "wrt 1\n");
-}
-
 void parser_version(struct parser *p, struct span span, struct span number_span, struct str number)
 {
     struct ast_node *n = ast_node(p->ast, AST_VERSION, span);

@@ -92,6 +92,18 @@ static void run(const struct source *source, int start_token, struct ast *out, s
     run_again(&again, &p, &mark);
 }
 
+/* Told behind everything else, so that a comment can allow it. */
+static void check_version(const struct ast *ast, struct diag *diag)
+{
+    const struct ast_node *first = ast->statements;
+    if (ast->xml || !first || first->kind == AST_VERSION || first->kind == AST_ERROR)
+        return;
+    struct span start = {first->span.begin, first->span.begin};
+    struct diag_entry *e = diag_report(diag, DIAG_MISSING_VERSION, start,
+                                       "the scene does not say its version; 'wrt 1' is taken");
+    diag_fix(e, start, DIAG_FIX_SAFE, "wrt 1\n");
+}
+
 bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag)
 {
     struct str text = {source->text, source->n};
@@ -103,6 +115,7 @@ bool syntax_parse(const struct source *source, struct ast *out, struct diag *dia
     else
         run(source, out->xml ? TOKEN_START_XML : TOKEN_START_NATIVE, out, diag);
     syntax_find_allows(out, diag);
+    check_version(out, diag);
     return diag_failures(diag) == failures;
 }
 

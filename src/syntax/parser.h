@@ -108,7 +108,6 @@ struct ast_node *parser_construct(struct parser *p, struct span span, struct str
 
 /* ---- build.c: grammar actions longer than a constructor ---- */
 
-void parser_missing_version(struct parser *p);
 void parser_version(struct parser *p, struct span span, struct span number_span, struct str number);
 struct ast_node *parser_number(struct parser *p, enum ast_kind kind, struct span span,
                                struct str spelling);
