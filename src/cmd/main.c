@@ -91,18 +91,26 @@ static const struct command *find_command(const char *name)
     return NULL;
 }
 
-/* A word before other operands that is no file was meant as a command. */
-static bool looks_like_command(const char *word, size_t operands)
-{
-    return operands > 1 && !strpbrk(word, "./") && access(word, F_OK) != 0;
-}
-
-static int unknown_command(const char *word)
+static struct str nearest_command(const char *word)
 {
     struct str_nearest nearest = str_nearest_to(str_of(word));
     for (int i = 0; i < COMMANDS; i++)
         str_nearest_try(&nearest, str_of(commands[i].name));
-    struct str meant = str_nearest_found(&nearest);
+    return str_nearest_found(&nearest);
+}
+
+/* A word that is no file was meant as a command when other operands follow, or when it is near to
+ * one. */
+static bool looks_like_command(const char *word, size_t operands)
+{
+    if (strpbrk(word, "./") || access(word, F_OK) == 0)
+        return false;
+    return operands > 1 || strcmp(word, "help") == 0 || nearest_command(word).n;
+}
+
+static int unknown_command(const char *word)
+{
+    struct str meant = nearest_command(word);
     if (meant.n)
         return usage_error("unknown command '%s'; did you mean '%.*s'?", word, STR_ARG(meant));
     return usage_error("unknown command '%s'; 'wrt --help' lists them", word);

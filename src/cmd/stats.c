@@ -56,6 +56,11 @@ static void render_json(const struct run_stats *s, const struct options *o,
                o);
 }
 
+static void put_count(size_t n, const char *what, const char *behind)
+{
+    fprintf(stderr, "%zu %s%s%s", n, what, n == 1 ? "" : "s", behind);
+}
+
 static void render_text(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
@@ -64,8 +69,11 @@ static void render_text(const struct run_stats *s, const struct options *o,
     fprintf(stderr, "picture    %u x %u, %u sample%s a pixel, %u thread%s, %s\n", s->width,
             s->height, s->grid * s->grid, s->grid > 1 ? "s" : "", o->threads,
             o->threads > 1 ? "s" : "", isa_name(o->isa));
-    fprintf(stderr, "scene      %zu surfaces, %zu triangles, %zu lights, %zu textures\n",
-            scene->surfaces.n, count_triangles(scene), scene->lights.n, scene->textures.n);
+    fputs("scene      ", stderr);
+    put_count(scene->surfaces.n, "surface", ", ");
+    put_count(count_triangles(scene), "triangle", ", ");
+    put_count(scene->lights.n, "light", ", ");
+    put_count(scene->textures.n, "texture", "\n");
     fprintf(stderr,
             "seconds    parse %.4f, load %.4f, build %.4f, render %.4f, write %.4f; %.4f in all\n",
             s->parse_s, s->load_s, r->build_s, r->render_s, s->write_s, s->total_s);
@@ -90,6 +98,16 @@ void stats_print_render(const struct run_stats *s, const struct options *o,
         render_text(s, o, scene);
 }
 
+static void check_text(const struct check_stats *s)
+{
+    fprintf(stderr, "%s: ", s->scene);
+    put_count(s->surfaces, "surface", ", ");
+    put_count(s->lights, "light", ", ");
+    put_count(s->materials, "material", ", ");
+    put_count(s->textures, "texture", "; ");
+    fprintf(stderr, "%.4f s, %.1f MB at most\n", s->parse_s, (double)stats_peak_rss() * 1e-6);
+}
+
 void stats_print_check(const struct check_stats *s, const struct options *o)
 {
     if (o->stats == STATS_JSON)
@@ -101,9 +119,5 @@ void stats_print_check(const struct check_stats *s, const struct options *o)
                              (json_int_t)stats_peak_rss()),
                    o);
     else if (o->stats == STATS_TEXT)
-        fprintf(
-            stderr,
-            "%s: %zu surfaces, %zu lights, %zu materials, %zu textures; %.4f s, %.1f MB at most\n",
-            s->scene, s->surfaces, s->lights, s->materials, s->textures, s->parse_s,
-            (double)stats_peak_rss() * 1e-6);
+        check_text(s);
 }

@@ -34,6 +34,9 @@ int vrml_lex(VRML_STYPE *value, struct span *span, struct wrl *w)
     (void)value; /* tokens are known by their place */
     *span = (struct span){w->at, w->at};
     int token = w->stopped ? WRL_END : wrl_scan(span, w->scanner);
+    memmove(&w->last[1], &w->last[0], sizeof w->last - sizeof w->last[0]);
+    w->last[0].token = token;
+    w->last[0].span = *span;
     return w->stopped ? WRL_END : token;
 }
 
@@ -57,12 +60,33 @@ void wrl_unterminated(struct wrl *w, struct span span)
              "this string never ends");
 }
 
+/* A name among the numbers of a list was taken for a node, and is missed its `{` only now. */
+static bool report_name_in_list(struct wrl *w)
+{
+    int now = w->last[0].token, before = w->last[2].token;
+    bool among = before == WRL_NUMBER || before == WRL_LBRACKET;
+    bool number = now == WRL_NUMBER || now == WRL_RBRACKET;
+    struct span span = w->last[1].span;
+    struct str name = text_of(w, span);
+    int n = (int)(name.n < 40 ? name.n : 40);
+    if (w->last[1].token != WRL_NAME || !among)
+        return false;
+    if (number)
+        diag_report(w->diag, DIAG_MESH_SYNTAX, span, "'%.*s' is not a number", n, name.at);
+    else
+        diag_report(w->diag, DIAG_MESH_SYNTAX, span, "expected ']' before '%.*s'", n, name.at);
+    return true;
+}
+
 void wrl_syntax_error(struct wrl *w, struct span span, bool at_end, const char *const *expected,
                       size_t n)
 {
     struct str found = text_of(w, span);
     char words[128] = "", what[64] = "the end of the file";
     if (w->stopped)
+        return;
+    w->stopped = true;
+    if (n == 1 && strcmp(expected[0], "'{'") == 0 && report_name_in_list(w))
         return;
     for (size_t i = 0; i < n; i++)
         snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s",
@@ -78,7 +102,6 @@ void wrl_syntax_error(struct wrl *w, struct span span, bool at_end, const char *
         diag_report(w->diag, DIAG_MESH_SYNTAX, span, "the file ends too early");
     else
         diag_report(w->diag, DIAG_MESH_SYNTAX, span, "%s cannot stand here", what);
-    w->stopped = true;
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */

@@ -58,6 +58,10 @@ struct wrl {
     void *scanner; /* flex's yyscan_t */
     uint32_t at;   /* offset of the next unread byte */
     bool stopped;  /* a limit was hit: the end is feigned */
+    struct {
+        int token;
+        struct span span;
+    } last[3]; /* the tokens read last, the newest first */
 
     struct arena arena;              /* of definitions */
     struct map definitions;          /* by name */
