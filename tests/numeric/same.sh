@@ -65,11 +65,19 @@ check_scene()
     render whole -t 1
     compare whole other -t 2
     compare whole other -t 7
-    compare whole other --accel none
     compare whole other --no-skip
-    for isa in $others; do # of the examples, the slowest scenes, only in the long run
-        [ -z "$full" ] && [ -z "${scene##*/examples/*}" ] || compare whole other --isa "$isa"
-    done
+    if [ -z "$full" ] && [ -z "${scene##*/examples/*}" ]; then
+        # the slowest scenes: without the tree only a few pixels, instruction sets in the long run
+        local width=8 height=6
+        render small -t 1
+        compare small other --accel none
+        width=40 height=30
+    else
+        compare whole other --accel none
+        for isa in $others; do
+            compare whole other --isa "$isa"
+        done
+    fi
     render whole -t 1 -s 2 --jitter
     compare whole other -t 3 -s 2 --jitter --no-skip
     # the middle of the picture, cut out of the whole
