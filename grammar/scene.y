@@ -2,7 +2,7 @@
  *
  * Things start at `input`: the first token says which format follows.  Actions call one
  * constructor or append to a list; everything else (names, types, ranges) is for later stages.
- * `error` recovers at member, statement and block end only. */
+ * `error` recovers at members and statements only. */
 
 %require "3.8"
 %language "C"
@@ -53,6 +53,17 @@ void xml_release(void *yyscanner);
                  : (struct span){YYRHSLOC(rhs, 0).end, YYRHSLOC(rhs, 0).end})
 
 static void scene_error(const struct span *span, struct parser *p, const char *message);
+
+/* Behind a syntax error: everything up to the next member or statement is lost, and bison may tell
+ * the next error at once (parser_resume sees to it that each time some text was read). */
+#define RESUME(lost)                                                                               \
+    do {                                                                                           \
+        if (yychar != TOKEN_SCENE_EMPTY)                                                                     \
+            parser_hold(p, yychar, yylval.text, yylloc);                                           \
+        yyclearin;                                                                                 \
+        if (parser_resume(p, &(lost)))                                                             \
+            yyerrok;                                                                               \
+    } while (0)
 }
 
 %token END 0            "end of file"
@@ -61,6 +72,7 @@ static void scene_error(const struct span *span, struct parser *p, const char *m
 %token START_VALUE      "value"
 
 /* Native */
+%token ORPHAN "'{' of a damaged block" /* syntax/resume.c */
 %token <text> NAME "name"
 %token <text> NUMBER "number" DEGREES "angle" RADIANS "angle in radians"
 %token <text> STRING "string"
@@ -125,7 +137,7 @@ statements:
   %empty                      { $$ = (struct ast_list){0}; }
 | statements[list] statement  { $$ = ast_append($list, $statement); }
 | statements[list] SEMICOLON  { $$ = $list; }
-| statements[list] error      { $$ = ast_append_error(p->ast, $list, @error); }
+| statements[list] error      { RESUME(@error); $$ = ast_append_error(p->ast, $list, @error); }
 ;
 
 statement:
@@ -160,6 +172,7 @@ statement:
 | NAME[kind] NAME[word] NAME[label] block
     { $$ = parser_block(p, AST_BLOCK, @$, $kind, @kind, $word,
                         ast_concat(ast_append((struct ast_list){0}, ast_named(p->ast, AST_LABEL, @label, $label, @label)), $block)); }
+| ORPHAN rest_of_block  { $$ = ast_node(p->ast, AST_ERROR, @$); }
 ;
 
 if:
@@ -211,8 +224,7 @@ block:
 ;
 
 rest_of_block:
-  members RBRACE        { $$ = $members; }
-| members error RBRACE  { $$ = ast_append_error(p->ast, $members, @error); }
+  members RBRACE  { $$ = $members; }
 ;
 
 members:
@@ -220,8 +232,7 @@ members:
 | members[list] member      { $$ = ast_append($list, $member); }
 | members[list] COMMA       { $$ = $list; }
 | members[list] SEMICOLON   { $$ = $list; }
-| members[list] error member
-    { $$ = ast_append(ast_append_error(p->ast, $list, @error), $member); }
+| members[list] error       { RESUME(@error); $$ = ast_append_error(p->ast, $list, @error); }
 ;
 
 member:
@@ -230,7 +241,8 @@ member:
 | property_name COLON value
     { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name), $value); }
 | property_name COLON error
-    { $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name),
+    { RESUME(@error);
+      $$ = ast_with(ast_named(p->ast, AST_PROPERTY, @$, $property_name, @property_name),
                     ast_node(p->ast, AST_ERROR, @error)); }
 | statement
 ;
@@ -341,11 +353,13 @@ static int yyreport_syntax_error(const yypcontext_t *context, struct parser *p)
     int n = yypcontext_expected_tokens(context, expected, EXPECTED_MOST);
     if (n == YYENOMEM)
         return YYENOMEM;
+    size_t said = 0;
     for (int i = 0; i < n; i++)
-        names[i] = yysymbol_name(expected[i]);
+        if (expected[i] != YYSYMBOL_ORPHAN)
+            names[said++] = yysymbol_name(expected[i]);
     yysymbol_kind_t found = yypcontext_token(context);
     parser_syntax_error(p, *yypcontext_location(context), yysymbol_name(found),
-                        found == YYSYMBOL_YYEOF, names, (size_t)(n > 0 ? n : 0));
+                        found == YYSYMBOL_YYEOF, names, said);
     return 0;
 }
 

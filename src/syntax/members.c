@@ -21,8 +21,7 @@ bool parser_member_follows(const struct parser *p, int token)
     bool separator = token == TOKEN_COMMA || token == TOKEN_SEMICOLON;
     bool behind = token == TOKEN_LBRACE || token == TOKEN_RBRACE || token == TOKEN_MEMBER ||
                   token == TOKEN_OPENING || (separator && p->member_due);
-    return behind && p->depth > 0 &&
-           p->source->text[p->brackets[p->depth - 1].begin - p->source->base] == '{';
+    return behind && parser_bracket(p) == '{';
 }
 
 /* ---- scanning; the text ends with NUL ---- */

@@ -140,13 +140,14 @@ static size_t indentation(const struct parser *p, uint32_t offset)
 
 /* Whether this token only follows from the last error: it is left over from the same line, or
  * closes what could not be opened there. */
-static bool is_left_over(const struct parser *p, struct span span)
+static bool is_left_over(const struct parser *p, struct span span, bool vague)
 {
+    enum { FEW = 3 }; /* tokens that a line needs to be understood again */
     if (!p->astray || p->ast->xml)
         return false;
     struct str between = srcmap_text(p->diag->sources, (struct span){p->astray, span.begin});
     if (!between.n || !memchr(between.at, '\n', between.n))
-        return true;
+        return vague || p->since <= FEW;
     return str_is(srcmap_text(p->diag->sources, span), "}") &&
            indentation(p, span.begin) == indentation(p, p->astray);
 }
@@ -159,7 +160,7 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
     const char *shown[EXPECTED_MOST];
     char words[256], what[80];
     n = summarise(expected, n, shown);
-    if (!n && is_left_over(p, span))
+    if (is_left_over(p, span, !n))
         return;
     bool value = n == 1 && strcmp(shown[0], "value") == 0;
     if (at_end && p->depth > 0 && !p->ast->xml && !value) {

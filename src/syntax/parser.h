@@ -36,6 +36,13 @@ struct missing {
 
 enum { MISSING_LIMIT = 16 };
 
+/* Native: a token that was scanned, but waits. */
+struct held {
+    int token;
+    struct str text;
+    struct span span;
+};
+
 struct parser {
     struct ast *ast;
     struct diag *diag;
@@ -55,11 +62,12 @@ struct parser {
     struct trail trail;                    /* native */
     struct missing missing[MISSING_LIMIT]; /* native: by place, as far as they are known */
     unsigned missing_count, missing_next;
-    bool held; /* native: a token waits behind a feigned one */
-    int held_token;
-    struct str held_text;
-    struct span held_span;
-    uint32_t astray; /* native: where the last syntax error was; 0: none yet */
+    struct held held[2]; /* native: tokens to give next, the last one first */
+    unsigned held_count;
+    uint32_t astray;    /* native: where the last syntax error was; 0: none yet */
+    uint32_t resumed;   /* native: where reading went on behind it; 0: nowhere yet */
+    unsigned since;     /* native: tokens read since */
+    uint32_t unmatched; /* native: the last bracket that closes nothing */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
@@ -91,7 +99,11 @@ void parser_stop(struct parser *p, enum diag_code code, struct span span, const 
 
 /* Native brackets; parser_nest is false when they are nested too deeply. */
 bool parser_nest(struct parser *p, struct span span);
-void parser_unnest(struct parser *p);
+void parser_unnest(struct parser *p, char opening, uint32_t at);
+/* The kind of the innermost open bracket; 0: none is open. */
+char parser_bracket(const struct parser *p);
+/* Gives the token again. */
+void parser_hold(struct parser *p, int token, struct str text, struct span span);
 
 /* ---- members.c: members that are one token ---- */
 
@@ -145,6 +157,12 @@ bool xml_close_due(struct parser *p);
 bool parser_find_unclosed(const struct parser *p, struct missing *found);
 /* The token that a missing brace is, due before a token at `begin`; 0: none is.  Reports it. */
 int parser_missing_token(struct parser *p, uint32_t begin);
+
+/* ---- resume.c ---- */
+
+/* Passes over what is lost behind a syntax error, which widens *lost; true when errors from here on
+ * are others. */
+bool parser_resume(struct parser *p, struct span *lost);
 
 /* ---- slips.c: usual slips, told and mended ---- */
 

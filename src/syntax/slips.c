@@ -31,12 +31,6 @@ static bool defines(int token)
            token == TOKEN_TEXTURE;
 }
 
-static bool in_block(const struct parser *p)
-{
-    return p->depth > 0 &&
-           p->source->text[p->brackets[p->depth - 1].begin - p->source->base] == '{';
-}
-
 /* The text is a name, and a colon follows it. */
 static bool is_quoted_property(const struct parser *p, struct str text)
 {
@@ -63,7 +57,8 @@ static int mend_quotes(struct parser *p, struct span span, struct str name)
 int parser_mend_slip(struct parser *p, int token, struct span span, struct str text)
 {
     const struct trail *t = &p->trail;
-    if (token == TOKEN_EQUALS && names_property(t->last) && !defines(t->before) && in_block(p))
+    if (token == TOKEN_EQUALS && names_property(t->last) && !defines(t->before) &&
+        parser_bracket(p) == '{')
         return mend_sign(p, span, TOKEN_COLON, ":", "a property is written 'name: value'");
     if (token == TOKEN_COLON && t->last == TOKEN_NAME && defines(t->before))
         return mend_sign(p, span, TOKEN_EQUALS, "=", "a definition is written 'let name = value'");

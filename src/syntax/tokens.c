@@ -33,9 +33,30 @@ bool parser_nest(struct parser *p, struct span span)
     return false;
 }
 
-void parser_unnest(struct parser *p)
+char parser_bracket(const struct parser *p)
 {
-    p->depth -= p->depth > 0;
+    return p->depth ? p->source->text[p->brackets[p->depth - 1].begin - p->source->base] : 0;
+}
+
+/* A brace closes the innermost open one and what is left open inside; other brackets close nothing
+ * around the block they stand in. */
+void parser_unnest(struct parser *p, char opening, uint32_t at)
+{
+    unsigned depth = p->depth;
+    while (p->depth && parser_bracket(p) != opening && (opening == '{' || parser_bracket(p) != '{'))
+        p->depth--;
+    if (parser_bracket(p) == opening) {
+        p->depth--;
+    } else {
+        p->depth = depth;
+        p->unmatched = at;
+    }
+}
+
+void parser_hold(struct parser *p, int token, struct str text, struct span span)
+{
+    p->now = p->previous;
+    p->held[p->held_count++] = (struct held){token, text, span};
 }
 
 struct span span_of_trimmed(struct span span, struct str text)
@@ -71,29 +92,28 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     return token;
 }
 
-/* The token that was scanned before a feigned one, or a new one. */
+/* The token that waits, or a new one. */
 static int held_or_scanned(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
-    if (!p->held)
+    if (!p->held_count)
         return parser_mend_slip(p, native_scan(value, span, p->scanner), *span, value->text);
-    p->held = false;
-    *span = p->held_span;
-    value->text = p->held_text;
-    return p->held_token;
+    const struct held *h = &p->held[--p->held_count];
+    *span = h->span;
+    value->text = h->text;
+    return h->token;
 }
 
 static int next_native(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
     int token = held_or_scanned(value, span, p);
-    int missing = parser_missing_token(p, span->begin);
+    bool feigned = token == TOKEN_RBRACE && span->begin == span->end;
+    int missing = feigned ? 0 : parser_missing_token(p, span->begin);
     if (missing) {
-        p->held = true;
-        p->held_token = token;
-        p->held_text = value->text;
-        p->held_span = *span;
+        p->held[p->held_count++] = (struct held){token, value->text, *span};
         *span = (struct span){p->now.end, p->now.end};
         token = missing;
     }
+    p->since++;
     parser_trail(p, token);
     p->member_due = parser_member_follows(p, token);
     return token;

@@ -151,6 +151,6 @@ int parser_missing_token(struct parser *p, uint32_t begin)
     struct diag_entry *e = diag_report(p->diag, DIAG_SYNTAX, place, "expected '}'");
     diag_label(e, m->opening, "this is not closed");
     diag_fix(e, place, DIAG_FIX_MAYBE, " }");
-    parser_unnest(p);
+    parser_unnest(p, '{', m->place);
     return TOKEN_RBRACE;
 }
