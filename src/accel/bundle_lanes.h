@@ -139,16 +139,15 @@ static inline vmask clip_to_side(const struct cylinder *c, struct vvec3 w, struc
     power = v_select(v_at_most(v_abs(power), 2 * c->radius * rounding), zero, power);
     vmask on = v_equal(power, zero), outside = v_less(zero, power), along = v_equal(a, zero);
     vmask leaving = outside & v_not(v_less(b, zero)) & v_not(along);
-    vreal discriminant = r2 - off * off / a;
-    discriminant = v_select(v_less(zero, discriminant), discriminant, zero);
-    vreal q = -(b + v_copysign(v_sqrt(a * discriminant), b));
+    vmask passing = outside & v_less(r2 * a, off * off);
+    vreal square = v_select(v_less(power, zero), b * b - a * power, a * (r2 - off * off / a));
+    vreal q = -(b + v_copysign(v_sqrt(v_select(v_less(zero, square), square, zero)), b));
     vreal t0 = v_select(on, zero, power / q), t1 = v_select(on, -2 * b / a, q / a);
     vmask ordered = v_less(t0, t1);
     s->t[0] = v_select(along, v_all(-INFINITY), v_select(ordered, t0, t1));
     s->t[1] = v_select(along, v_all(INFINITY), v_select(ordered, t1, t0));
     s->part[0] = s->part[1] = v_all(CYLINDER_SIDE);
-    return v_not(v_less(r2 * a, off * off)) & v_not(leaving) &
-           v_not(along & v_not(v_at_most(power, zero)));
+    return v_not(passing) & v_not(leaving) & v_not(along & v_not(v_at_most(power, zero)));
 }
 
 static inline vmask clip_to_caps(const struct cylinder *c, struct vvec3 m, struct vvec3 d,

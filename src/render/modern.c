@@ -1,6 +1,7 @@
 /* Light and rays of `model modern`; wrt(5) has the formulas. */
 #include "config.h"
 
+#include "math/optics.h"
 #include "math/rng.h"
 #include "render/tracer.h"
 
@@ -203,21 +204,13 @@ static void modern_light(struct worker *w)
 
 /* ---- mirrored and refracted rays ------------------------------------------------------------- */
 
-/* Back to length 1 from near it: a step of Newton's iteration. */
-static struct vec3 renormalized(struct vec3 d)
-{
-    return vec3_scale(d, 1.5 - 0.5 * vec3_dot(d, d));
-}
-
 /* The mirrored direction; one that a bent normal sends below the primitive is bent back. */
 static struct vec3 mirrored(const struct seen_point *p)
 {
-    struct vec3 d = p->s.incoming;
-    d = vec3_mad(d, -2 * vec3_dot(p->normal, d), p->normal);
-    double below = vec3_dot(d, p->geometric);
-    if (below < 0)
-        d = vec3_mad(d, -2 * below, p->geometric);
-    return renormalized(d);
+    struct vec3 d = vec3_mirrored(p->s.incoming, p->normal);
+    if (vec3_dot(d, p->geometric) < 0)
+        d = vec3_mirrored(d, p->geometric);
+    return vec3_renormalized(d);
 }
 
 static double index_inside(const struct scene *scene, const struct media *media)
@@ -240,17 +233,11 @@ static struct media media_beyond(const struct media *media, uint32_t surface, bo
     return beyond;
 }
 
-/* Snell's law, by the sine, which near the critical angle keeps the digits that 1 - c^2 loses;
- * false for total reflection. */
+/* False for total reflection, and where a bent normal would send the ray back. */
 static bool refracted(const struct seen_point *p, double eta, struct vec3 *direction)
 {
-    double c = -vec3_dot(p->normal, p->s.incoming);
-    double s = vec3_length(vec3_cross(p->normal, p->s.incoming)), k = (1 - eta * s) * (1 + eta * s);
-    if (!(k >= 0 && c > 0))
-        return false;
-    struct vec3 d = vec3_mad(vec3_scale(p->s.incoming, eta), eta * c - sqrt(k), p->normal);
-    *direction = renormalized(d);
-    return vec3_dot(*direction, p->geometric) < 0;
+    return vec3_refracted(p->s.incoming, p->normal, eta, direction) &&
+           vec3_dot(*direction, p->geometric) < 0;
 }
 
 static void spawn_from(struct worker *w, struct level *level, const struct path *paths, uint32_t k)

@@ -40,12 +40,12 @@ static bool clip_to_side(const struct cylinder *c, const struct seen_cylinder *s
 {
     struct vec3 n = cylinder_cross(direction, c->axis);
     double a = vec3_dot(n, n), off = vec3_dot(direction, seen->w), r2 = c->radius * c->radius;
-    if (off * off > r2 * a)
-        return false;
     double b = vec3_dot(n, seen->w);
     double power = vec3_dot(seen->w, seen->w) - r2; /* of the origin: 0 on the side */
     if (fabs(power) <= 2 * c->radius * rounding)
         power = 0;
+    if (power > 0 && off * off > r2 * a)
+        return false;
     if (a == 0) {
         *s = (struct stretch){{-INFINITY, INFINITY}, {CYLINDER_SIDE, CYLINDER_SIDE}};
         return power <= 0;
@@ -57,8 +57,9 @@ static bool clip_to_side(const struct cylinder *c, const struct seen_cylinder *s
         t0 = 0;
         t1 = -2 * b / a;
     } else {
-        double discriminant = r2 - off * off / a;
-        double q = -(b + copysign(sqrt(a * (discriminant > 0 ? discriminant : 0)), b));
+        /* from inside both terms are positive, however nearly the ray follows the axis */
+        double square = power < 0 ? b * b - a * power : a * (r2 - off * off / a);
+        double q = -(b + copysign(sqrt(square > 0 ? square : 0), b));
         t0 = power / q;
         t1 = q / a;
     }
