@@ -1,10 +1,15 @@
 #include "config.h"
 
 #include "cmd/commands.h"
+#include "cmd/diff.h"
 #include "cmd/frontend.h"
 
+#include "base/file.h"
 #include "convert/compare.h"
 #include "lower/lower.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 enum { SHOWN = 20 }; /* differences; many follow from the first */
 
@@ -13,11 +18,13 @@ struct side {
     struct lowered lowered;
 };
 
-/* Returns the exit status. */
-static int load(struct side *s, const char *path, const struct options *o)
+/* Takes the bytes; returns the exit status. */
+static int load(struct side *s, struct diff_input *input, const struct options *o)
 {
     struct frontend *f = &s->frontend;
-    if (frontend_load(f, path, o))
+    bool loaded = frontend_load_bytes(f, input->path, input->bytes, input->n, o);
+    input->bytes = NULL;
+    if (loaded)
         lower_scene(&f->desc, &f->sources, &s->lowered, &f->diag);
     return frontend_report(f, o, DIAG_WARNING);
 }
@@ -52,17 +59,18 @@ static int compare(const struct side sides[2])
     return equal ? DIAG_EXIT_OK : DIAG_EXIT_INPUT;
 }
 
-int command_diff(const struct options *o)
+static int diff_scenes(struct diff_input inputs[2], const struct options *o)
 {
     struct side sides[2] = {0};
-    int status = 0;
-    if (o->scenes.n != 2)
-        return usage_error("diff takes two scenes, but %zu %s given", o->scenes.n,
-                           o->scenes.n == 1 ? "is" : "are");
     struct options loading = *o;
+    int status = 0;
+    if (o->output || o->json || o->limited)
+        return usage_error("--%s is for two pictures", o->output ? "out"
+                                                       : o->json ? "json"
+                                                                 : "fail-above");
     for (int i = 0; i < 2; i++) {
         loading.current = (size_t)i;
-        status = status_worse(status, load(&sides[i], o->scenes.at[i], &loading));
+        status = status_worse(status, load(&sides[i], &inputs[i], &loading));
     }
     if (status == 0)
         status = compare(sides);
@@ -70,5 +78,58 @@ int command_diff(const struct options *o)
         lower_free(&sides[i].lowered);
         frontend_free(&sides[i].frontend);
     }
+    return status;
+}
+
+/* ---- what there is to compare ---- */
+
+static struct diff_input read_input(const char *path)
+{
+    struct diff_input in = {.path = path, .name = strcmp(path, "-") == 0 ? "<stdin>" : path};
+    in.problem = file_read(path, &in.bytes, &in.n);
+    in.picture = !in.problem && picture_recognised(in.bytes, in.n);
+    return in;
+}
+
+/* Says which of the two cannot be read, or else that they are not alike. */
+static int report_inputs(const struct diff_input inputs[2], const struct options *o)
+{
+    struct frontend f;
+    const struct diff_input *picture = &inputs[inputs[0].picture ? 0 : 1];
+    const struct diff_input *scene = &inputs[inputs[0].picture ? 1 : 0];
+    frontend_init(&f, o);
+    for (int i = 0; i < 2; i++)
+        if (inputs[i].problem)
+            diag_report(&f.diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
+                        inputs[i].name, inputs[i].problem);
+    if (!f.diag.errors)
+        diag_report(&f.diag, DIAG_NOT_COMPARABLE, (struct span){0},
+                    "'%s' is a picture and '%s' is none; two pictures or two scenes are compared",
+                    picture->name, scene->name);
+    int status = frontend_report(&f, o, DIAG_WARNING);
+    frontend_free(&f);
+    return status;
+}
+
+static int diff_inputs(struct diff_input inputs[2], const struct options *o)
+{
+    struct options as_one = *o; /* findings are those of one input */
+    as_one.scenes.n = 1;
+    if (inputs[0].problem || inputs[1].problem || inputs[0].picture != inputs[1].picture)
+        return report_inputs(inputs, &as_one);
+    return inputs[0].picture ? diff_pictures(inputs, &as_one) : diff_scenes(inputs, o);
+}
+
+int command_diff(const struct options *o)
+{
+    if (o->scenes.n != 2)
+        return usage_error("diff takes two scenes or two pictures, but %zu %s given", o->scenes.n,
+                           o->scenes.n == 1 ? "is" : "are");
+    if (strcmp(o->scenes.at[0], "-") == 0 && strcmp(o->scenes.at[1], "-") == 0)
+        return usage_error("diff: only one of the two can be standard input");
+    struct diff_input inputs[2] = {read_input(o->scenes.at[0]), read_input(o->scenes.at[1])};
+    int status = diff_inputs(inputs, o);
+    free(inputs[0].bytes);
+    free(inputs[1].bytes);
     return status;
 }

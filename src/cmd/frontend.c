@@ -115,6 +115,18 @@ bool frontend_load_text(struct frontend *f, const char *path, struct str text,
     return f->diag.errors == 0;
 }
 
+bool frontend_load_bytes(struct frontend *f, const char *path, char *bytes, size_t n,
+                         const struct options *o)
+{
+    frontend_init(f, o);
+    const struct source *s =
+        syntax_take(&f->sources, path, bytes, n, DIAG_CANNOT_READ, (struct span){0}, &f->diag);
+    bool parsed = s && syntax_parse(s, &f->ast, &f->diag);
+    if (may_evaluate(f, parsed))
+        evaluate(f, o, parsed);
+    return f->diag.errors == 0;
+}
+
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)
 {
     double start = thread_seconds();

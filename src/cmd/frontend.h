@@ -32,6 +32,10 @@ bool frontend_load_text(struct frontend *f, const char *path, struct str text,
 /* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag;
  * free with frontend_free in any case. */
 bool frontend_load(struct frontend *f, const char *path, const struct options *options);
+/* As frontend_load of a file whose bytes have been read, which are f's from now on; they have room
+ * for two more. */
+bool frontend_load_bytes(struct frontend *f, const char *path, char *bytes, size_t n,
+                         const struct options *options);
 void frontend_free(struct frontend *f);
 
 /* Prints what was found as the options say; returns the exit status it asks for. */

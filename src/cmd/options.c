@@ -2,9 +2,11 @@
 
 #include "cmd/options.h"
 
+#include "base/num.h"
 #include "base/thread.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -282,6 +284,33 @@ static bool take_include(const struct opt_row *row, const char *text, struct opt
     return true;
 }
 
+/* What is to be better the smaller it is, by its name. */
+static enum measure find_limited(struct str name)
+{
+    for (int i = 0; i < MEASURES; i++)
+        if (i != MEASURE_PSNR && str_is(name, measure_names[i]))
+            return (enum measure)i;
+    return MEASURES;
+}
+
+/* N or NAME=N */
+static bool take_fail_above(const struct opt_row *row, const char *text, struct options *out)
+{
+    const char *equals = strchr(text, '='), *number = equals ? equals + 1 : text;
+    const char *end = number + strlen(number);
+    enum measure which =
+        equals ? find_limited((struct str){text, (size_t)(equals - text)}) : MEASURE_MAX;
+    double limit = 0;
+    if (which == MEASURES || num_parse(number, end, &limit) != end || !(limit >= 0)) {
+        usage_error("--%s takes N or NAME=N, not '%s'; N is 0 or more, and NAME max, rmse, mae, "
+                    "p99.9, above or flip",
+                    row->name, text);
+        return false;
+    }
+    out->limits[which] = limit;
+    return out->limited = true;
+}
+
 /* ---- the options ---- */
 
 static const struct opt_row rows[OPTS] = {
@@ -414,6 +443,8 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
                             .threads = thread_cores(),
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000};
+    for (int i = 0; i < MEASURES; i++)
+        out->limits[i] = NAN;
     bool options_end = false;
     for (int i = 1; i < argc;) {
         if (!options_end && strcmp(argv[i], "--") == 0) {

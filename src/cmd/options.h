@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "diag/diag.h"
+#include "image/measures.h"
 #include "render/render.h"
 
 #include <stdbool.h>
@@ -61,6 +62,8 @@ struct options {
     bool jitter, brute_force, no_skip, quiet, verbose;
     bool manual, json, deps, behind;
     uint32_t pixel[2];
+    bool limited;
+    double limits[MEASURES]; /* not a number: none */
 };
 
 /* The exit status of wrong usage. */

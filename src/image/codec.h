@@ -25,5 +25,6 @@ struct image *jpeg_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE
 struct image *ppm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 void *ppm_file_encode(const struct picture *p, size_t *n);
 void *pfm_file_encode(const struct picture *p, size_t *n);
+struct picture *pfm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 
 #endif

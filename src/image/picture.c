@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* What a file is, by its first bytes. */
-enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_OTHER };
+enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_PFM, KIND_OTHER };
 
 struct signature {
     enum signature_kind kind;
@@ -42,8 +42,8 @@ static const struct signature signatures[] = {
     {KIND_OTHER, 0, BYTES("P4"), "PBM"},
     {KIND_OTHER, 0, BYTES("P5"), "PGM"},
     {KIND_OTHER, 0, BYTES("P7"), "PAM"},
-    {KIND_OTHER, 0, BYTES("PF"), "PFM"},
-    {KIND_OTHER, 0, BYTES("Pf"), "PFM"},
+    {KIND_PFM, 0, BYTES("PF"), "PFM"},
+    {KIND_OTHER, 0, BYTES("Pf"), "grey PFM"},
     {KIND_OTHER, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR"},
     {KIND_OTHER, 0, BYTES("#?RADIANCE"), "Radiance"},
     {KIND_OTHER, 0, BYTES("8BPS"), "Photoshop"},
@@ -62,6 +62,11 @@ static const struct signature *signature_of(const uint8_t *bytes, size_t n)
             return s;
     }
     return NULL;
+}
+
+bool picture_recognised(const void *bytes, size_t n)
+{
+    return signature_of(bytes, n) != NULL;
 }
 
 void image_reason(char reason[IMAGE_REASON_BYTES], const char *format, ...)
@@ -255,9 +260,11 @@ struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_RE
         i = png_file_decode(bytes, n, reason);
     else if (s && s->kind == KIND_PPM)
         i = ppm_file_decode(bytes, n, reason);
+    else if (s && s->kind == KIND_PFM)
+        return pfm_file_decode(bytes, n, reason);
     else if (s)
-        image_reason(reason, "%s pictures are not read here; PNG and binary PPM are", s->name);
+        image_reason(reason, "%s pictures are not read here; PNG, binary PPM and PFM are", s->name);
     else
-        image_reason(reason, n ? "not a PNG or PPM picture" : "the file is empty");
+        image_reason(reason, n ? "not a PNG, PPM or PFM picture" : "the file is empty");
     return i ? picture_of_image(i, reason) : NULL;
 }

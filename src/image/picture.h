@@ -79,7 +79,10 @@ bool picture_format_of(const char *path, enum picture_format *format);
 void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
                      char reason[IMAGE_REASON_BYTES]);
 
-/* Reads a PNG of at most 8 bits a channel or a binary PPM back (tests and `wrt diff`). */
+/* True when the bytes start as files of pictures do, read or not. */
+bool picture_recognised(const void *bytes, size_t n);
+
+/* Reads a PNG of at most 8 bits a channel, a binary PPM or a PFM back. */
 struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 
 #endif

@@ -4,6 +4,7 @@
 #include "image/codec.h"
 
 #include "base/mem.h"
+#include "base/num.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -73,6 +74,15 @@ static const uint8_t *read_field(const uint8_t *p, const uint8_t *end, uint32_t 
     return p > digits && !longer ? p : NULL;
 }
 
+/* Exactly `wanted` bytes must follow the header. */
+static bool size_check(size_t have, size_t wanted, char reason[IMAGE_REASON_BYTES])
+{
+    if (have != wanted)
+        image_reason(reason,
+                     have < wanted ? "the picture ends early" : "more bytes follow the picture");
+    return have == wanted;
+}
+
 struct image *ppm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
 {
     uint32_t width, height, largest;
@@ -91,12 +101,51 @@ struct image *ppm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_
     if (!image_size_check(width, height, reason))
         return NULL;
     size_t samples = (size_t)3 * width * height;
-    if ((size_t)(end - p) != samples) {
-        image_reason(reason, (size_t)(end - p) < samples ? "the picture ends early"
-                                                         : "more bytes follow the picture");
+    if (!size_check((size_t)(end - p), samples, reason))
         return NULL;
-    }
     struct image *i = image_new(width, height, 8);
     memcpy(i->data8, p, samples);
     return i;
+}
+
+/* Little-endian, or the other way round. */
+static float get_float(const uint8_t *in, bool little)
+{
+    uint32_t bits = 0;
+    for (int i = 0; i < 4; i++)
+        bits = bits << 8 | in[little ? 3 - i : i];
+    float f;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+struct picture *pfm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
+{
+    uint32_t width, height;
+    double scale = 0;
+    const uint8_t *end = bytes + n, *p = bytes + 2;
+    if ((p = read_field(p, end, &width)) && (p = read_field(p, end, &height))) {
+        while (p < end && is_space(*p))
+            p++;
+        p = (const uint8_t *)num_parse((const char *)p, (const char *)end, &scale);
+    }
+    if (!p || p == end || !is_space(*p)) {
+        image_reason(reason, "the PFM header is damaged");
+        return NULL;
+    }
+    p++;
+    if (scale != 1 && scale != -1) {
+        image_reason(reason, "a PFM with a scale of %g is not read; one with 1 or -1 is", scale);
+        return NULL;
+    }
+    if (!image_size_check(width, height, reason))
+        return NULL;
+    size_t row = (size_t)3 * width;
+    if (!size_check((size_t)(end - p), row * height * sizeof(float), reason))
+        return NULL;
+    struct picture *out = picture_new(width, height, true);
+    for (uint32_t y = height; y-- > 0;)
+        for (size_t i = 0; i < row; i++, p += sizeof(float))
+            out->floats[y * row + i] = get_float(p, scale < 0);
+    return out;
 }

@@ -5,17 +5,10 @@
 
 #include "base/file.h"
 
-const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
-                                 struct span span, struct diag *diag)
+const struct source *syntax_take(struct srcmap *sources, const char *path, char *text, size_t n,
+                                 enum diag_code code, struct span span, struct diag *diag)
 {
     const char *name = strcmp(path, "-") == 0 ? "<stdin>" : path;
-    char *text;
-    size_t n;
-    const char *reason = file_read(path, &text, &n);
-    if (reason) {
-        diag_report(diag, code, span, "could not read '%s': %s", name, reason);
-        return NULL;
-    }
     struct encoding_problem problem;
     bool right = syntax_decode(&text, &n, &problem);
     const struct source *s = srcmap_add(sources, name, text, n);
@@ -27,5 +20,18 @@ const struct source *syntax_load(struct srcmap *sources, const char *path, enum 
         return s;
     uint32_t at = s->base + (uint32_t)problem.offset;
     diag_report(diag, problem.code, (struct span){at, at + 1}, "%s", problem.message);
+    return NULL;
+}
+
+const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
+                                 struct span span, struct diag *diag)
+{
+    char *text;
+    size_t n;
+    const char *reason = file_read(path, &text, &n);
+    if (!reason)
+        return syntax_take(sources, path, text, n, code, span, diag);
+    diag_report(diag, code, span, "could not read '%s': %s",
+                strcmp(path, "-") == 0 ? "<stdin>" : path, reason);
     return NULL;
 }

@@ -20,6 +20,11 @@ bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem);
 const struct source *syntax_load(struct srcmap *sources, const char *path, enum diag_code code,
                                  struct span span, struct diag *diag);
 
+/* As syntax_load of a file whose bytes have been read: they become the source's, and have room for
+ * two more. */
+const struct source *syntax_take(struct srcmap *sources, const char *path, char *text, size_t n,
+                                 enum diag_code code, struct span span, struct diag *diag);
+
 /* True when the text is an XML document: its first character is `<`. */
 bool syntax_is_xml(struct str text);
 
