@@ -47,8 +47,7 @@ static bool load(struct comparing *c)
     if (a->width != b->width || a->height != b->height)
         refuse(c, why);
     else if (!a->bytes != !b->bytes)
-        refuse(c, "a picture of floats, which are light, is not compared with one of bytes, which "
-                  "are not");
+        refuse(c, "a picture of floats, which hold light, is not compared with one of bytes");
     return c->frontend.diag.errors == 0;
 }
 

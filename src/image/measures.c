@@ -127,7 +127,7 @@ void measure_pictures(const struct picture *a, const struct picture *b, unsigned
     m->at[MEASURE_RMSE] = sqrt(m->at[MEASURE_RMSE] / (3 * pixels));
     m->at[MEASURE_PSNR] = -20 * log10(m->at[MEASURE_RMSE]);
     m->at[MEASURE_ABOVE] *= 100 / pixels;
-    m->at[MEASURE_P999] = most_of_them(a, b);
+    m->at[MEASURE_P999] = fmin(most_of_them(a, b), m->at[MEASURE_MAX]);
     flip_map(a, b, threads, flip);
     m->at[MEASURE_FLIP] = mean_of(flip, a->width, a->height);
 }

@@ -630,8 +630,8 @@ static const struct {
     {"P6\n1 -1\n255\n", "the PPM header is damaged"},
     {"P6", "the PPM header is damaged"},
     {"P6#", "the PPM header is damaged"},
-    {"P3\n1 1\n255\n1 2 3", "text PPM pictures are not read here; PNG and binary PPM are"},
-    {"hello", "not a PNG or PPM picture"},
+    {"P3\n1 1\n255\n1 2 3", "text PPM pictures are not read here; PNG, binary PPM and PFM are"},
+    {"hello", "not a PNG, PPM or PFM picture"},
     {"", "the file is empty"},
 };
 
@@ -647,6 +647,64 @@ START_TEST(ppm_is_read_or_refused)
         ck_assert_mem_eq(p->bytes, "abc", 3);
     }
     picture_free(p);
+}
+END_TEST
+
+#define ONE_PIXEL "\x3f\x80\0\0\xc0\0\0\0\0\0\0\0" /* 1 -2 0, the highest byte first */
+
+static const struct {
+    const char *text;
+    size_t n;
+    const char *reason; /* NULL: read */
+} pfms[] = {
+    {"PF\n1 1\n1.0\n" ONE_PIXEL, 23, NULL},
+    {"PF 1 1 +1 " ONE_PIXEL, 22, NULL},
+    {"PF\n1 1\n-1\n\0\0\x80\x3f\0\0\0\xc0\0\0\0\0", 22, NULL},
+    {"PF\n1 1\n1.0\n" ONE_PIXEL, 22, "the picture ends early"},
+    {"PF\n1 1\n1.0\n" ONE_PIXEL "\n", 24, "more bytes follow the picture"},
+    {"PF\n1 1\n2.5\n" ONE_PIXEL, 23, "a PFM with a scale of 2.5 is not read; one with 1 or -1 is"},
+    {"PF\n1 1\n0\n", 9, "a PFM with a scale of 0 is not read; one with 1 or -1 is"},
+    {"PF\n1 1\n", 7, "the PFM header is damaged"},
+    {"PF\n1 1\none\n", 11, "the PFM header is damaged"},
+    {"PF\n1 1\n1", 8, "the PFM header is damaged"},
+    {"PF", 2, "the PFM header is damaged"},
+    {"PF\n0 1\n1\n", 9, "the picture's size of 0 x 1 is nothing"},
+    {"PF\n999999 999999\n1\n", 19,
+     "the picture's size of 999999 x 999999 is larger than the limit"},
+    {"Pf\n1 1\n1\n", 9, "grey PFM pictures are not read here; PNG, binary PPM and PFM are"},
+};
+
+START_TEST(pfm_is_read_or_refused)
+{
+    static const float wanted[] = {1, -2, 0};
+    char reason[IMAGE_REASON_BYTES] = "";
+    struct picture *p = picture_decode(pfms[_i].text, pfms[_i].n, reason);
+    if (pfms[_i].reason) {
+        ck_assert_ptr_null(p);
+        ck_assert_str_eq(reason, pfms[_i].reason);
+    } else {
+        ck_assert_msg(p, "%s", reason);
+        ck_assert_mem_eq(p->floats, wanted, sizeof wanted);
+    }
+    picture_free(p);
+}
+END_TEST
+
+START_TEST(pfm_survives_round_trip)
+{
+    struct picture *p = picture_new(3, 2, true);
+    char reason[IMAGE_REASON_BYTES];
+    size_t n;
+    for (size_t i = 0; i < 18; i++)
+        p->floats[i] = (float)i - 7.25F;
+    void *file = picture_encode(p, PICTURE_PFM, &n, reason);
+    ck_assert(picture_recognised(file, n) && !picture_recognised("wrt 1\n", 6));
+    struct picture *back = picture_decode(file, n, reason);
+    ck_assert_msg(back && back->width == 3 && back->height == 2, "%s", reason);
+    ck_assert_mem_eq(back->floats, p->floats, 18 * sizeof(float));
+    free(file);
+    picture_free(p);
+    picture_free(back);
 }
 END_TEST
 
@@ -670,6 +728,8 @@ static TCase *picture_case(void)
     tcase_add_loop_test(c, picture_survives_round_trip, 0, COUNT(trips));
     tcase_add_loop_test(c, ppm_is_read_or_refused, 0, COUNT(ppms));
     tcase_add_test(c, pfm_is_little_endian_bottom_up);
+    tcase_add_loop_test(c, pfm_is_read_or_refused, 0, COUNT(pfms));
+    tcase_add_test(c, pfm_survives_round_trip);
     tcase_add_test(c, deep_png_is_no_picture);
     return c;
 }

@@ -18,6 +18,7 @@ Suite *instance_suite(void);
 Suite *lint_suite(void);
 Suite *lower_suite(void);
 Suite *lsp_suite(void);
+Suite *measures_suite(void);
 Suite *mesh_suite(void);
 Suite *print_suite(void);
 Suite *modern_suite(void);
