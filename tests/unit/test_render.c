@@ -8,6 +8,13 @@
 
 #include <string.h>
 
+/* Of the pictures; less under a sanitizer. */
+#ifdef __SANITIZE_ADDRESS__
+enum { WIDTH = 40, HEIGHT = 32 };
+#else
+enum { WIDTH = 64, HEIGHT = 48 };
+#endif
+
 #define NO_UV    \
     {            \
         {0, 0},  \
@@ -160,8 +167,8 @@ static void make_scene(struct scene *s, double scale, bool glow)
                                    .back = vec3(0, 0.2, -1),
                                    .up = vec3(0, 1, 0),
                                    .yfov = 30,
-                                   .width = 64,
-                                   .height = 48,
+                                   .width = WIDTH,
+                                   .height = HEIGHT,
                                    .compatible = true}};
     struct geometry *g = &s->geometry;
     double k = scale;
