@@ -31,6 +31,7 @@ struct source {
     char *text;    /* UTF-8 with two NULs behind it (flex scans it in place); owned */
     uint32_t base; /* offset of text[0] */
     uint32_t n;    /* bytes, without the NULs */
+    bool marked;   /* the file has a byte order mark before the text */
     VEC(uint32_t) lines; /* start of each line within text; made when first asked for */
     struct {
         uint32_t line, at, column; /* the last column told, from 0; places mostly come in order */

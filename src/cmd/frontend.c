@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/thread.h"
 #include "eval/eval.h"
+#include "print/printer.h"
 #include "syntax/syntax.h"
 #include "validate/validate.h"
 
@@ -88,6 +89,8 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
         .folder_count = o->folders.n,
     };
     eval_scene(&f->ast, &options, &f->desc, &f->diag);
+    if (o->policy.lint && desc_is_part(&f->desc, &f->ast))
+        f->desc.incomplete = true;
     if (parsed || f->desc.camera)
         validate_scene(&f->desc, &f->diag);
     free(defines);
@@ -101,13 +104,19 @@ bool frontend_parse(struct frontend *f, const char *path, const struct options *
     return s && syntax_parse(s, &f->ast, &f->diag);
 }
 
+static const struct source *add_text(struct frontend *f, const char *name, struct str text)
+{
+    char *copy = mem_alloc(text.n + 2, 1);
+    if (text.n)
+        memcpy(copy, text.at, text.n);
+    return srcmap_add(&f->sources, name, copy, text.n);
+}
+
 bool frontend_load_text(struct frontend *f, const char *path, struct str text,
                         const struct options *o)
 {
-    char *copy = mem_alloc(text.n + 2, 1);
     frontend_init(f, o);
-    memcpy(copy, text.at, text.n);
-    const struct source *s = srcmap_add(&f->sources, path, copy, text.n);
+    const struct source *s = add_text(f, path, text);
     if (!s)
         diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "the result is too large");
     if (s && syntax_parse(s, &f->ast, &f->diag))
@@ -125,6 +134,19 @@ bool frontend_load_bytes(struct frontend *f, const char *path, char *bytes, size
     if (may_evaluate(f, parsed))
         evaluate(f, o, parsed);
     return f->diag.errors == 0;
+}
+
+bool frontend_lay_out(struct str text, struct buffer *out)
+{
+    struct options none = {0};
+    struct frontend f;
+    frontend_init(&f, &none);
+    const struct source *s = add_text(&f, "", text);
+    bool parsed = s && syntax_parse(s, &f.ast, &f.diag);
+    if (parsed)
+        print_scene(&f.ast, out);
+    frontend_free(&f);
+    return parsed;
 }
 
 bool frontend_load(struct frontend *f, const char *path, const struct options *o)

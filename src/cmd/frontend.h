@@ -3,6 +3,7 @@
 #define WRT_CMD_FRONTEND_H
 
 #include "ast/ast.h"
+#include "base/buffer.h"
 #include "cmd/options.h"
 #include "diag/diag.h"
 #include "eval/desc.h"
@@ -14,6 +15,7 @@ struct frontend {
     struct desc desc;
     VEC(struct ast) defines; /* the values of -D */
     double seconds;
+    unsigned unlooked; /* rules of lint that were not looked at because of errors */
 };
 
 void frontend_init(struct frontend *f, const struct options *options);
@@ -28,6 +30,9 @@ bool frontend_parse(struct frontend *f, const char *path, const struct options *
  * `path`. */
 bool frontend_load_text(struct frontend *f, const char *path, struct str text,
                         const struct options *options);
+
+/* Adds the text in canonical layout to *out; false when it has syntax errors. */
+bool frontend_lay_out(struct str text, struct buffer *out);
 
 /* Initialises f and loads the scene; true when it may be lowered.  Everything found is in f->diag;
  * free with frontend_free in any case. */

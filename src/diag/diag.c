@@ -199,7 +199,8 @@ struct diag_entry *diag_report(struct diag *d, enum diag_code code, struct span 
 struct diag_mark diag_mark(const struct diag *d)
 {
     return (struct diag_mark){
-        d->entries.n, {d->kept[0], d->kept[1]}, d->dropped, d->errors, d->warnings, d->raised, d->exit};
+        d->entries.n, {d->kept[0], d->kept[1]}, d->dropped, d->errors, d->warnings, d->raised,
+        d->exit};
 }
 
 void diag_rewind(struct diag *d, const struct diag_mark *mark)

@@ -232,6 +232,9 @@ struct diag_print_options {
     bool begun, goes_on;   /* SARIF: one log for what is printed before and after, too */
 };
 
+/* How many findings of each level are printed, with those of which there are too many. */
+void diag_count_shown(const struct diag *d, enum diag_level least, size_t of[DIAG_ERROR + 1]);
+
 /* Prints all entries in order. */
 void diag_print(struct diag *d, const struct diag_print_options *o, FILE *out);
 

@@ -61,14 +61,39 @@ static int compare(const void *a, const void *b)
     return x->span.begin < y->span.begin ? -1 : x->span.begin > y->span.begin;
 }
 
+/* A name in an allow comment that is misspelt is mended before anything else: what the comment
+ * allows is then let be. */
+static bool is_misspelt_allow(const struct diag_entry *e)
+{
+    return e->code == DIAG_UNUSED_ALLOW && e->fixits.n > 0;
+}
+
+static bool any_misspelt_allow(const struct diag *d, const struct source *source, bool all)
+{
+    for (size_t i = 0; i < d->entries.n; i++)
+        if (is_misspelt_allow(d->entries.at[i]) && is_ready(d->entries.at[i], source, all))
+            return true;
+    return false;
+}
+
+size_t diag_fixable(const struct diag *d, const struct source *source, bool all)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < d->entries.n; i++)
+        n += is_ready(d->entries.at[i], source, all);
+    return n;
+}
+
 size_t diag_fix_text(struct diag *d, const struct source *source, bool all, struct buffer *out)
 {
     struct edits edits = {0};
     size_t findings = 0, at = 0;
+    bool allows_only = any_misspelt_allow(d, source, all);
     diag_sort(d);
     for (size_t i = 0; i < d->entries.n; i++) {
         const struct diag_entry *e = d->entries.at[i];
-        if (!is_ready(e, source, all) || meets_any(&edits, e))
+        if (!is_ready(e, source, all) || meets_any(&edits, e) ||
+            (allows_only && !is_misspelt_allow(e)))
             continue;
         findings++;
         take(&edits, e);

@@ -2,6 +2,8 @@
 
 #include "diag/print.h"
 
+#include <string.h>
+
 const char *diag_level_name(enum diag_level level)
 {
     static const char *const names[] = {
@@ -12,6 +14,17 @@ const char *diag_level_name(enum diag_level level)
 bool diag_is_shown(const struct diag_entry *e, enum diag_level least)
 {
     return e->level >= least || (least < DIAG_ERROR && diag_is_optional(e->code));
+}
+
+void diag_count_shown(const struct diag *d, enum diag_level least, size_t of[DIAG_ERROR + 1])
+{
+    memset(of, 0, (DIAG_ERROR + 1) * sizeof *of);
+    for (size_t i = 0; i < d->entries.n; i++)
+        of[d->entries.at[i]->level] += diag_is_shown(d->entries.at[i], least);
+    for (const struct diag_crowd *c = d->crowded; c; c = c->next)
+        if (c->n > DIAG_RULE_LIMIT && diag_rules[c->code].level >= least)
+            of[diag_rules[c->code].level] += c->n - DIAG_RULE_LIMIT;
+    of[DIAG_ERROR] += d->dropped;
 }
 
 /* What was counted only. */

@@ -40,6 +40,17 @@ const struct ast *desc_brought(const struct desc *d, const struct ast_node *incl
     return map_get(&d->brought, key_of(include));
 }
 
+bool desc_is_part(const struct desc *d, const struct ast *ast)
+{
+    static const bool defines[AST_KINDS] = {
+        [AST_LET] = true, [AST_PARAM] = true,  [AST_MATERIAL] = true, [AST_TEXTURE] = true,
+        [AST_FN] = true,  [AST_DEFINE] = true, [AST_DEFAULT] = true};
+    const struct ast_node *n = ast->xml ? NULL : ast->statements;
+    while (n && !defines[n->kind])
+        n = n->next;
+    return n && !d->camera && !d->settings && !d->lights.n && !d->surfaces.n;
+}
+
 const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id)
 {
     for (const struct desc_prop *p = o->props; p; p = p->next)

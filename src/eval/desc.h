@@ -76,6 +76,9 @@ void desc_free(struct desc *d);
 void desc_set_brought(struct desc *d, const struct ast_node *include, struct ast *tree);
 const struct ast *desc_brought(const struct desc *d, const struct ast_node *include);
 
+/* True of a file of definitions, to be included: it is no scene, and lacks nothing. */
+bool desc_is_part(const struct desc *d, const struct ast *ast);
+
 /* The property as it was given, or NULL when it was not. */
 const struct desc_prop *desc_find(const struct desc_object *o, enum schema_prop_id id);
 

@@ -45,8 +45,9 @@ struct str lint_name(const struct desc_object *o, enum schema_prop_id id);
 /* True in the file itself, not in one that it includes. */
 bool lint_is_here(const struct lint *l, struct span span);
 
-/* Proposes that the text goes away, with the blanks behind it, and with its line when nothing else
- * stands there. */
+/* Proposes that the text goes away, and with it its line when nothing else stands there, the comment
+ * behind it on that line, and comments before it that allow something in it.  Other comments are
+ * left alone; with a comment that is lost it is no safe change. */
 void lint_remove(const struct lint *l, struct diag_entry *e, struct span span,
                  enum diag_fix_kind kind);
 

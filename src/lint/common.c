@@ -3,6 +3,8 @@
 
 #include "lint/checks.h"
 
+#include <string.h>
+
 static void look_at(const struct lint *l, struct desc_object *const *objects, size_t n,
                     lint_look *look)
 {
@@ -57,34 +59,131 @@ bool lint_is_here(const struct lint *l, struct span span)
     return span.begin >= s->base && span.end <= s->base + s->n;
 }
 
+/* ---- text that goes away ---- */
+
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t';
 }
 
-/* The text with its separator, the blanks behind it, and its line when that holds nothing else. */
-static struct span removal(const struct source *s, struct span span)
+static uint32_t skip_blanks(const struct source *s, uint32_t at)
 {
-    const char *text = s->text;
-    uint32_t begin = span.begin - s->base, end = span.end - s->base, first = begin;
-    while (is_blank(text[end]))
-        end++;
-    if (text[end] == ',' || text[end] == ';')
-        for (end++; is_blank(text[end]);)
-            end++;
-    while (first > 0 && is_blank(text[first - 1]))
-        first--;
-    bool alone = (first == 0 || text[first - 1] == '\n') && (text[end] == '\n' || end == s->n);
-    if (alone) {
-        begin = first;
-        end += end < s->n;
+    while (is_blank(s->text[at - s->base]))
+        at++;
+    return at;
+}
+
+static uint32_t skip_blanks_back(const struct source *s, uint32_t at)
+{
+    while (at > s->base && is_blank(s->text[at - s->base - 1]))
+        at--;
+    return at;
+}
+
+static bool begins_line(const struct source *s, uint32_t at)
+{
+    return at == s->base || s->text[at - s->base - 1] == '\n';
+}
+
+static bool ends_line(const struct source *s, uint32_t at)
+{
+    return at == s->base + s->n || s->text[at - s->base] == '\n';
+}
+
+/* The number of the first comment that begins there or later. */
+static size_t comment_from(const struct ast *ast, uint32_t at)
+{
+    size_t low = 0, high = ast->trivia.n;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (ast->trivia.at[middle].span.begin < at)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    return (struct span){s->base + begin, s->base + end};
+    return low;
+}
+
+static bool is_allow(const struct lint *l, const struct trivia *comment)
+{
+    static const char mark[] = "wrt: allow(";
+    struct str text = srcmap_text(l->sources, comment->span);
+    return memmem(text.at, text.n, mark, sizeof mark - 1);
+}
+
+/* Behind the comment that begins at `at` and is the last thing on that line; else `at`. */
+static uint32_t skip_last_comment(const struct lint *l, const struct source *s, uint32_t at)
+{
+    size_t i = comment_from(l->ast, at);
+    if (i == l->ast->trivia.n || l->ast->trivia.at[i].span.begin != at)
+        return at;
+    struct span c = l->ast->trivia.at[i].span;
+    uint32_t end = skip_blanks(s, c.end);
+    bool one_line = !memchr(s->text + (c.begin - s->base), '\n', c.end - c.begin);
+    return one_line && ends_line(s, end) ? end : at;
+}
+
+/* The line before the one that begins at `line`, when all of it is a comment that allows something
+ * here; else `line`. */
+static uint32_t allow_before(const struct lint *l, const struct source *s, uint32_t line)
+{
+    size_t i = comment_from(l->ast, line);
+    const struct trivia *c = i ? &l->ast->trivia.at[i - 1] : NULL;
+    if (!c || skip_blanks(s, c->span.end) + 1 != line || !is_allow(l, c))
+        return line;
+    uint32_t begin = skip_blanks_back(s, c->span.begin);
+    return begins_line(s, begin) ? begin : line;
+}
+
+/* Whole lines, with the comments that speak of them: the one at the end and the allow comments
+ * before.  Of the blank lines around them one stays. */
+static struct span whole_lines(const struct lint *l, const struct source *s, struct span span)
+{
+    for (uint32_t line; (line = allow_before(l, s, span.begin)) != span.begin;)
+        span.begin = line;
+    span.end += span.end < s->base + s->n;
+    uint32_t blank = skip_blanks(s, span.end);
+    bool after = span.end < s->base + s->n && ends_line(s, blank);
+    bool before = span.begin == s->base || begins_line(s, skip_blanks_back(s, span.begin - 1));
+    if (before && after)
+        span.end = blank + (blank < s->base + s->n);
+    return span;
+}
+
+/* The text with its separator and the blanks behind it; with its lines when they hold nothing else
+ * but a comment behind it. */
+static struct span removal(const struct lint *l, const struct source *s, struct span span)
+{
+    uint32_t first = skip_blanks_back(s, span.begin), end = skip_blanks(s, span.end);
+    char next = s->text[end - s->base];
+    if (next == ',' || next == ';')
+        end = skip_blanks(s, end + 1);
+    uint32_t last = skip_last_comment(l, s, end);
+    if (begins_line(s, first) && ends_line(s, last))
+        return whole_lines(l, s, (struct span){first, last});
+    next = s->text[end - s->base];
+    bool opens = first > s->base && s->text[first - s->base - 1] == '{';
+    if (ends_line(s, end) || (next == '}' && opens))
+        return (struct span){first, end};
+    if (next == '}' && is_blank(s->text[end - s->base - 1]))
+        return (struct span){first, end - 1};
+    return (struct span){span.begin, end};
+}
+
+static bool loses_comment(const struct lint *l, struct span span)
+{
+    const struct ast *ast = l->ast;
+    for (size_t i = comment_from(ast, span.begin);
+         i < ast->trivia.n && ast->trivia.at[i].span.begin < span.end; i++)
+        if (!is_allow(l, &ast->trivia.at[i]))
+            return true;
+    return false;
 }
 
 void lint_remove(const struct lint *l, struct diag_entry *e, struct span span,
                  enum diag_fix_kind kind)
 {
     const struct source *s = srcmap_source(l->sources, span.begin);
-    diag_fix(e, removal(s, span), kind, "%s", "");
+    struct span all = s == l->ast->source ? removal(l, s, span) : span;
+    diag_fix(e, all, loses_comment(l, all) ? DIAG_FIX_MAYBE : kind, "%s", "");
 }

@@ -35,7 +35,7 @@ static void check_uvs(const struct lint *l, const struct desc_object *o)
             l->diag, DIAG_UV_UNUSED, lint_extent(o, uvs),
             "nothing uses these coordinates: there is neither a texture nor a normal map");
         if (!o->xml)
-            lint_remove(l, e, span_join(uvs->name_span, uvs->value.span), DIAG_FIX_SAFE);
+            lint_remove(l, e, span_join(uvs->name_span, uvs->value.span), DIAG_FIX_MAYBE);
     } else if (id != PROP_UV_FILE && are_equal(&uvs->value)) {
         diag_report(l->diag, DIAG_DEGENERATE_UV, lint_extent(o, uvs),
                     "all corners have the same coordinates, so all of this %s has one colour",

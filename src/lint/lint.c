@@ -46,6 +46,16 @@ enum lint_stage lint_stage_of(enum diag_code code)
     return LINT_STAGES;
 }
 
+unsigned lint_rules_from(const struct diag *diag, enum lint_stage stage)
+{
+    unsigned n = 0;
+    for (int i = 0; i < DIAG_CODES; i++) {
+        enum lint_stage own = lint_stage_of((enum diag_code)i);
+        n += own >= stage && own < LINT_STAGES && diag_wants(diag, (enum diag_code)i);
+    }
+    return n;
+}
+
 const char *lint_needs(enum diag_code code)
 {
     static const char *const words[LINT_STAGES] = {

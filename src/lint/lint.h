@@ -29,6 +29,9 @@ struct lint {
 /* Runs the checks of one stage, but for those whose rules are all switched off. */
 void lint_run(const struct lint *l, enum lint_stage stage);
 
+/* How many rules that are wanted the checks of this stage and the later ones look for. */
+unsigned lint_rules_from(const struct diag *diag, enum lint_stage stage);
+
 /* The stage whose checks look for this; LINT_STAGES: none. */
 enum lint_stage lint_stage_of(enum diag_code code);
 

@@ -278,12 +278,19 @@ static bool may_differ_elsewhere(const struct lint *l, const struct desc_object 
     return false;
 }
 
+/* What another rule asks to be said, whatever it is: W582, W550. */
+static bool is_asked_for(const struct desc_object *o, enum schema_prop_id id)
+{
+    return (id == PROP_SMOOTH && o->xml && o->model == SCHEMA_CLASSIC) || id == PROP_INTENSITY;
+}
+
 static void check_defaults(const struct lint *l, const struct desc_object *o)
 {
     for (const struct desc_prop *p = o->props; p; p = p->next) {
         enum schema_prop_id id = (enum schema_prop_id)p->id;
         bool word = schema_props[id].type == TYPE_WORD, flag = schema_props[id].type == TYPE_SWITCH;
-        if (p->inherited || !is_default(o, p) || may_differ_elsewhere(l, o, id))
+        if (p->inherited || !is_default(o, p) || is_asked_for(o, id) ||
+            may_differ_elsewhere(l, o, id))
             continue;
         struct str text = srcmap_text(l->sources, p->value.span);
         if (!word && !is_spelt_out(text) &&
@@ -292,7 +299,7 @@ static void check_defaults(const struct lint *l, const struct desc_object *o)
         struct span all = span_join(p->name_span, p->value.span);
         struct diag_entry *e =
             diag_report(l->diag, DIAG_REDUNDANT_DEFAULT, o->xml ? p->value.span : all,
-                        "'%.*s' is so by itself", STR_ARG(lint_name(o, id)));
+                        "'%.*s' has the default value", STR_ARG(lint_name(o, id)));
         if (!o->xml)
             lint_remove(l, e, all, DIAG_FIX_SAFE);
     }

@@ -60,6 +60,7 @@ struct walk {
     bool makes;                         /* as in struct module */
     bool varies;                        /* so does what was walked since this was last reset */
     bool lost;                          /* a file that may use any name is not known */
+    bool part;                          /* the file is one of definitions, which others use */
 };
 
 static void visit(struct walk *w, const struct ast_node *node);
@@ -192,7 +193,8 @@ static void report_unused(struct walk *w, const struct definition *d)
         [AST_MATERIAL] = {DIAG_UNUSED_MATERIAL, "material"},
         [AST_TEXTURE] = {DIAG_UNUSED_TEXTURE, "texture"},
     };
-    if (d->used || !d->here || w->lost || !rules[d->node->kind].what)
+    bool exported = w->part && w->region == w->file;
+    if (d->used || !d->here || w->lost || exported || !rules[d->node->kind].what)
         return;
     struct diag_entry *e =
         diag_report(w->l->diag, rules[d->node->kind].code, d->span, "the %s '%.*s' is never used",
@@ -400,7 +402,7 @@ static void report_inclusions(const struct walk *w)
 {
     for (size_t i = 0; i < w->inclusions.n; i++) {
         const struct inclusion *inclusion = w->inclusions.at[i];
-        if (inclusion->used || w->lost)
+        if (inclusion->used || w->lost || w->part)
             continue;
         struct diag_entry *e = diag_report(w->l->diag, DIAG_UNUSED_INCLUDE, inclusion->node->span,
                                            "nothing of this file is used, and it makes no objects");
@@ -443,7 +445,7 @@ static void visit(struct walk *w, const struct ast_node *node)
 
 void lint_uses(const struct lint *l)
 {
-    struct walk w = {.l = l, .here = true};
+    struct walk w = {.l = l, .here = true, .part = desc_is_part(l->desc, l->ast)};
     struct region top;
     if (l->ast->xml)
         return;

@@ -20,6 +20,8 @@ static double vertical_angle(const struct desc_object *o)
 void lint_view(const struct lint *l)
 {
     const struct desc_object *o = l->desc->camera;
+    if (!o)
+        return; /* a part of scenes */
     enum schema_prop_id id = o->model == SCHEMA_MODERN ? PROP_FOV : PROP_YFOV;
     double angle = vertical_angle(o);
     if (angle > 0 && (angle > LINT(WIDEST_VIEW) || angle < LINT(NARROWEST_VIEW)))

@@ -13,6 +13,8 @@ static struct span start_of(const struct lint *l)
 void lint_emptiness(const struct lint *l)
 {
     const struct desc *d = l->desc;
+    if (desc_is_part(d, l->ast))
+        return;
     if (!d->surfaces.n)
         diag_report(l->diag, DIAG_NO_SURFACE, start_of(l),
                     "the scene has no surface, so there is nothing to see");

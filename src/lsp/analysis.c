@@ -58,6 +58,7 @@ static void evaluate(struct analysis *a, const struct lsp_options *options)
     if (!a->parsed && (a->ast.xml || !a->ast.statements))
         return; /* what follows would be of the mistakes found */
     eval_scene(&a->ast, &o, &a->desc, &a->diag);
+    a->desc.incomplete |= desc_is_part(&a->desc, &a->ast);
     if (a->parsed || a->desc.camera)
         validate_scene(&a->desc, &a->diag);
 }

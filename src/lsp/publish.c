@@ -16,18 +16,11 @@ static struct span way_to(const struct analysis *a, const struct diag_entry *e)
     return (struct span){a->source->base, a->source->base};
 }
 
-/* A file of definitions, to be included: it is no scene, and needs no camera. */
-static bool is_part(const struct analysis *a)
-{
-    const struct desc *d = &a->desc;
-    return a->bindings.defs.n && !d->camera && !d->settings && !d->lights.n && !d->surfaces.n;
-}
-
 bool publish_place(const struct server *s, const struct analysis *a, const struct diag_entry *e,
                    struct span *place)
 {
     *place = e->span;
-    if (!diag_is_shown(e, DIAG_WARNING) || (e->code == DIAG_MISSING_OBJECT && is_part(a)))
+    if (!diag_is_shown(e, DIAG_WARNING))
         return false;
     if (span_known(e->span) && analysis_owns(a, e->span))
         return true;

@@ -17,6 +17,7 @@ struct allows {
 /* What stands around a comment. */
 struct surroundings {
     const struct ast_node *before, *after, *around;
+    uint32_t opening; /* where what opens the block around ends: its name, attributes, label */
 };
 
 static const char *text_at(const struct ast *ast, uint32_t offset)
@@ -33,7 +34,7 @@ static struct span covered(const struct ast *ast, const struct surroundings *s, 
 {
     if (s->before && on_one_line(ast, s->before->span.end, comment.begin))
         return s->before->span;
-    if (s->around && !s->before && on_one_line(ast, s->around->name_span.end, comment.begin))
+    if (s->around && !s->before && on_one_line(ast, s->opening, comment.begin))
         return s->around->span;
     return s->after ? s->after->span : (struct span){0, 0};
 }
@@ -78,18 +79,26 @@ static bool has_comment_before(const struct allows *a, uint32_t offset)
     return a->next < a->ast->trivia.n && a->ast->trivia.at[a->next].span.begin < offset;
 }
 
+static bool opens_block(const struct ast_node *node)
+{
+    return node->kind == AST_ATTRIBUTE || node->kind == AST_LABEL || node->kind == AST_PARAMETER;
+}
+
 /* The comments among these siblings, in and between them, up to `end`.  Trees are not deep. */
 static void walk(struct allows *a, const struct ast_node *first, const struct ast_node *around,
                  uint32_t end)
 {
-    struct surroundings s = {.around = around};
+    struct surroundings s = {.around = around, .opening = around ? around->name_span.end : 0};
     for (const struct ast_node *n = first; n; n = n->next) {
         s.after = n;
         while (has_comment_before(a, n->span.begin))
             take_comment(a, &s);
         if (has_comment_before(a, n->span.end))
             walk(a, n->children, n->kind == AST_BODY ? around : n, n->span.end);
-        s.before = n;
+        if (opens_block(n))
+            s.opening = n->span.end;
+        else
+            s.before = n;
     }
     s.after = NULL;
     while (has_comment_before(a, end))

@@ -1,4 +1,4 @@
-/* Bytes to UTF-8 text. */
+/* Bytes to UTF-8 text, and back. */
 #include "config.h"
 
 #include "syntax/syntax.h"
@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define BYTE_ORDER_MARK "\xEF\xBB\xBF"
 
 enum encoding { ENCODING_UTF8, ENCODING_LATIN1, ENCODING_ASCII };
 
@@ -75,11 +77,12 @@ static void latin1_to_utf8(char **text, size_t *n)
     *n += high;
 }
 
-bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem)
+bool syntax_decode(char **text, size_t *n, bool *marked, struct encoding_problem *problem)
 {
+    *marked = starts_with(*text, *n, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK));
     if (starts_with(*text, *n, "\xFF\xFE", 2) || starts_with(*text, *n, "\xFE\xFF", 2))
         return problem_at(problem, DIAG_ENCODING, 0, "UTF-16 is not read; save the scene as UTF-8");
-    if (starts_with(*text, *n, "\xEF\xBB\xBF", 3))
+    if (*marked)
         memmove(*text, *text + 3, *n -= 3);
     const char *nul = *n ? memchr(*text, 0, *n) : NULL;
     if (nul)
@@ -100,6 +103,38 @@ bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem)
     if (wrong < *n)
         return problem_at(problem, DIAG_ENCODING, wrong, "this byte is not part of UTF-8 text");
     return true;
+}
+
+/* Of valid UTF-8; moves *at behind it. */
+static uint32_t take_character(const char *text, size_t *at)
+{
+    size_t n = str_utf8_length((unsigned char)text[*at]);
+    uint32_t c = (unsigned char)text[(*at)++];
+    c &= n == 1 ? 0x7F : 0xFFu >> (n + 1);
+    for (; n > 1; n--)
+        c = c << 6 | ((unsigned char)text[(*at)++] & 0x3F);
+    return c;
+}
+
+/* Characters that the encoding lacks become references: they stand in text and attributes of XML,
+ * as native scenes declare no encoding. */
+void syntax_encode(struct str text, bool marked, struct buffer *out)
+{
+    enum encoding encoding;
+    buffer_puts(out, marked ? BYTE_ORDER_MARK : "");
+    if (!encoding_of(declared_encoding(text.at, text.n), &encoding) || encoding == ENCODING_UTF8) {
+        buffer_add(out, text.at, text.n);
+        return;
+    }
+    uint32_t most = encoding == ENCODING_LATIN1 ? 0xFF : 0x7F;
+    for (size_t i = 0; i < text.n;) {
+        uint32_t c = take_character(text.at, &i);
+        char byte = (char)c;
+        if (c <= most)
+            buffer_add(out, &byte, 1);
+        else
+            buffer_printf(out, "&#%u;", c);
+    }
 }
 
 bool syntax_is_xml(struct str text)

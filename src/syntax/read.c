@@ -10,12 +10,13 @@ const struct source *syntax_take(struct srcmap *sources, const char *path, char 
 {
     const char *name = strcmp(path, "-") == 0 ? "<stdin>" : path;
     struct encoding_problem problem;
-    bool right = syntax_decode(&text, &n, &problem);
-    const struct source *s = srcmap_add(sources, name, text, n);
+    bool marked, right = syntax_decode(&text, &n, &marked, &problem);
+    struct source *s = srcmap_add(sources, name, text, n);
     if (!s) {
         diag_report(diag, code, span, "'%s' is too large", name);
         return NULL;
     }
+    s->marked = marked;
     if (right)
         return s;
     uint32_t at = s->base + (uint32_t)problem.offset;

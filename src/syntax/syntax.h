@@ -3,17 +3,21 @@
 #define WRT_SYNTAX_SYNTAX_H
 
 #include "ast/ast.h"
+#include "base/buffer.h"
 #include "diag/diag.h"
 
 /* Checks that the text is text, in an encoding that is read, and makes it UTF-8 without a byte
- * order mark: *text and *n are replaced as needed.  A problem is described in *problem (its offset
- * in the text as it then is); true when there is none. */
+ * order mark: *text and *n are replaced as needed, and *marked tells of the mark.  A problem is
+ * described in *problem (its offset in the text as it then is); true when there is none. */
 struct encoding_problem {
     enum diag_code code;
     size_t offset;
     char message[160];
 };
-bool syntax_decode(char **text, size_t *n, struct encoding_problem *problem);
+bool syntax_decode(char **text, size_t *n, bool *marked, struct encoding_problem *problem);
+
+/* The opposite: adds the bytes of a file with this text, in the encoding that the text declares. */
+void syntax_encode(struct str text, bool marked, struct buffer *out);
 
 /* The file's text, decoded, as a source; NULL after reporting.  A file that cannot be read is a
  * `code` at `span`. */

@@ -377,13 +377,40 @@ START_TEST(decoding)
     char *text = mem_alloc(n + 2, 1);
     memcpy(text, encodings[_i].text, n);
     struct encoding_problem problem;
-    bool right = syntax_decode(&text, &n, &problem);
+    bool marked, right = syntax_decode(&text, &n, &marked, &problem);
+    struct buffer back = {0};
     ck_assert_int_eq(right, encodings[_i].decoded != NULL);
     if (right)
         ck_assert(str_is((struct str){text, n}, encodings[_i].decoded));
     else
         ck_assert(problem.code == encodings[_i].code && problem.offset == encodings[_i].offset);
+    if (right) { /* and as it was */
+        syntax_encode((struct str){text, n}, marked, &back);
+        ck_assert(str_equal((struct str){back.at, back.n},
+                            (struct str){encodings[_i].text, encodings[_i].n}));
+    }
+    buffer_free(&back);
     free(text);
+}
+END_TEST
+
+/* What the declared encoding lacks is said by its number. */
+START_TEST(encoding_again)
+{
+    static const struct {
+        const char *text, *bytes;
+    } rows[] = {
+        {DECLARED("ISO-8859-1") "\xc3\xa9\xe2\x82\xac", DECLARED("ISO-8859-1") "\xe9&#8364;"},
+        {DECLARED("US-ASCII") "\xc3\xa9\xf0\x9f\x98\x80", DECLARED("US-ASCII") "&#233;&#128512;"},
+        {DECLARED("utf-8") "\xc3\xa9", DECLARED("utf-8") "\xc3\xa9"},
+        {"\xc3\xa9", "\xc3\xa9"},
+    };
+    for (int i = 0; i < COUNT(rows); i++) {
+        struct buffer out = {0};
+        syntax_encode(str_of(rows[i].text), false, &out);
+        ck_assert(str_is((struct str){out.at, out.n}, rows[i].bytes));
+        buffer_free(&out);
+    }
 }
 END_TEST
 
@@ -400,6 +427,7 @@ Suite *syntax_suite(void)
     tcase_add_loop_test(t, recovery, 0, COUNT(mistakes));
     tcase_add_loop_test(t, value_of_define, 0, COUNT(defines));
     tcase_add_loop_test(t, decoding, 0, COUNT(encodings));
+    tcase_add_test(t, encoding_again);
     suite_add_tcase(s, t);
     return s;
 }
