@@ -2,8 +2,7 @@
  * RENDER_KERNELS to the name of its table.
  *
  * The same operations in the same order as the reference in kernels_plain.c. */
-#include "math/lanes.h"
-#include "render/tracer.h"
+#include "render/sight_lanes.h"
 
 static void aim(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions)
@@ -383,5 +382,5 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
-const struct render_kernels RENDER_KERNELS = {aim,  hit_points, weights, texels,
-                                              bend, add_light,  reflect, bounds};
+const struct render_kernels RENDER_KERNELS = {aim,       hit_points, weights, texels, bend,
+                                              add_light, reflect,    bounds,  see};

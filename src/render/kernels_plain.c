@@ -117,5 +117,15 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
-const struct render_kernels render_plain = {aim,  hit_points, weights, texels,
-                                            bend, add_light,  reflect, bounds};
+/* Everything on the list may be in everyone's way. */
+static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
+                const struct vec3_batch *from, const uint32_t *prims, uint32_t first, uint32_t end,
+                struct sight *sight)
+{
+    (void)g, (void)lamp, (void)opaque, (void)from, (void)prims, (void)first, (void)end;
+    memset(sight->near, 0xff, sight->list.n * sizeof *sight->near);
+    sight->hidden = 0;
+}
+
+const struct render_kernels render_plain = {aim,       hit_points, weights, texels, bend,
+                                            add_light, reflect,    bounds,  see};

@@ -124,7 +124,7 @@ static void finish_trial(struct worker *w, const struct target_list *list, bool 
     if (w->shadow_rays.n > 0 && !open)
         find_blocked(w, list, blocked);
     else
-        w->stats.shadow_skipped += w->shadow_rays.n;
+        w->stats.skipped[SKIP_OPEN] += w->shadow_rays.n;
     for (uint32_t i = 0; i < w->shadow_rays.n; i++)
         if (!blocked[i])
             trial->sum = vec3_add(trial->sum, trial->gives[i]);
@@ -159,20 +159,21 @@ static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
 
 static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
 {
-    struct target_list batch = {.usable = false}, own;
-    if (w->tracer->skips && w->points.n > 1)
-        list_shadowers(w->tracer, lamp, box, &batch);
-    for (uint32_t k = 0; k < w->points.n; k++) {
-        if (w->points.finish[k]->glows)
+    const struct shade_batch *points = &w->points;
+    struct target_list own;
+    struct sight sight;
+    for (uint32_t k = 0, end = 0; k < points->n; k++) {
+        if (k == end)
+            end =
+                see_lamp(w->tracer, lamp, &points->lifted, points->prim, box, k, points->n, &sight);
+        if (points->finish[k]->glows)
             continue;
-        struct seen_point p = seen_point_get(&w->points, k);
-        struct shade_point from = p.s;
-        from.p = p.lifted;
-        enum lamp_view view = lamp_view(w, lamp, &batch, &from, &own);
+        enum lamp_view view = lamp_view(&sight, k, &own);
         if (view == LAMP_HIDDEN) {
-            w->stats.shadow_skipped += lamp->light->samples.n;
+            w->stats.skipped[SKIP_UMBRA] += lamp->light->samples.n;
             continue;
         }
+        struct seen_point p = seen_point_get(points, k);
         struct vec3 light = area_light(w, lamp, &own, &p, view == LAMP_OPEN);
         vec3_put(&w->light.direct, k, vec3_add(vec3_get(&w->light.direct, k), light));
     }

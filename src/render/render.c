@@ -226,7 +226,7 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
     t->shading = t->modern ? &shading_modern : &shading_classic;
     accel_build(&t->accel, &scene->geometry, options->brute_force);
     for (size_t i = 0; i < scene->lights.n; i++)
-        lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force);
+        lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force, t->skips);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
     for (size_t i = 0; i < scene->materials.n; i++)
         t->finishes[i] = finish_of(&scene->materials.at[i]);
@@ -254,7 +254,8 @@ static void add_stats(struct render_stats *sum, const struct render_stats *more)
     sum->shadow += more->shadow;
     sum->reflection += more->reflection;
     sum->refraction += more->refraction;
-    sum->shadow_skipped += more->shadow_skipped;
+    for (int i = 0; i < SKIP_REASONS; i++)
+        sum->skipped[i] += more->skipped[i];
 }
 
 /* A worker whose camera rays lack nothing but their directions, or origins where they are parallel.

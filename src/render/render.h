@@ -35,11 +35,20 @@ struct render_options {
     struct render_progress progress; /* report may be NULL */
 };
 
+/* Why a shadow ray is not traced: nothing can be in its way; one surface hides all of the light
+ * from the point; another ray to the same sample is. */
+enum skip_reason { SKIP_OPEN, SKIP_UMBRA, SKIP_DUPLICATE, SKIP_REASONS };
+
 struct render_stats {
     double build_s, render_s;
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
-    uint64_t shadow_skipped; /* shadow rays whose outcome was known without tracing */
+    uint64_t skipped[SKIP_REASONS]; /* shadow rays whose outcome was known without tracing */
 };
+
+static inline uint64_t shadow_rays_skipped(const struct render_stats *s)
+{
+    return s->skipped[SKIP_OPEN] + s->skipped[SKIP_UMBRA] + s->skipped[SKIP_DUPLICATE];
+}
 
 /* Renders the crop of the picture into `out` (made by picture_new with the crop's size).  The bytes
  * do not depend on threads, crop, brute_force or no_skip. */

@@ -10,14 +10,30 @@
 #include "render/render.h"
 #include "scene/camera.h"
 
+/* Points of an area light's grid, classic. */
+struct lamp_points {
+    uint32_t n;
+    struct vec3_batch at;
+    uint32_t count[BATCH];
+    bool counts[BATCH]; /* seen from anywhere */
+    bool all_count;
+};
+
 /* A light made ready. */
 struct lamp {
     const struct light *light;
-    struct accel object; /* area lights: the light's own surface */
-    struct box box;      /* of the sample points, or of the position */
-    struct vec3 center;  /* of a ball that the rays through all counted samples meet */
+    struct box box; /* of the sample points, or of the position */
+    /* Area lights.  The rays through all counted samples meet the ball, and the box: */
+    struct vec3 center;
     double radius;
-    bool always_counts; /* some sample point counts seen from anywhere */
+    struct vec3 half;           /* of the box, from its center */
+    bool ball;                  /* the ball is the closer of the two */
+    struct accel object;        /* the light's own surface */
+    struct target_list targets; /* all of it */
+    struct lamp_points *points;
+    size_t point_batches;
+    uint64_t samples, duplicates; /* points of the grid, and how many of them are there before */
+    bool always_counts;           /* some sample point counts seen from anywhere */
 };
 
 /* What is known of a material beforehand. */
@@ -97,7 +113,7 @@ struct shade_batch {
     alignas(64) double facing[BATCH_ROOM]; /* cosine between normal and incoming */
     alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
     alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
-    uint32_t prim[BATCH], surface[BATCH];
+    uint32_t prim[BATCH_ROOM], surface[BATCH];
     uint32_t ray[BATCH]; /* place in the batch of rays */
     double t[BATCH];     /* distance along it */
     bool inside[BATCH];  /* refracted into the surface it meets: the far side of what it crossed */
@@ -156,6 +172,13 @@ struct hit_shapes {
     alignas(64) double part[BATCH_ROOM];
 };
 
+/* What some points see of a lamp, and what can stand in its way. */
+struct sight {
+    struct target_list list;          /* of any of them */
+    uint64_t near[TARGET_LIST_LIMIT]; /* by target; bit k: it may be in the way of point k */
+    uint64_t hidden;                  /* bit k: one target hides all of the lamp from point k */
+};
+
 /* What an instruction set has its own code for. */
 struct render_kernels {
     /* The directions of camera rays through picture coordinates x and y, from -1 to 1; no parallel
@@ -180,6 +203,11 @@ struct render_kernels {
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
+    /* Fills in what the points from `first` to `end`, which lie on `prims`, see of an area light,
+     * behind the targets of sight->list.  Bit k of `opaque`: target k hides what is behind it. */
+    void (*see)(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
+                const struct vec3_batch *from, const uint32_t *prims, uint32_t first, uint32_t end,
+                struct sight *sight);
 };
 
 extern const struct render_kernels render_plain, render_generic, render_avx2, render_avx512;
@@ -211,20 +239,25 @@ struct worker {
     struct ray_batch shadow_rays;
 };
 
-void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force);
+/* lamp.c */
+void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force, bool skips);
 void lamp_free(struct lamp *lamp);
+/* What can stand between the box and the lamp. */
+void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
+                    struct target_list *list);
+/* What the points from `first` on see of an area light: as many as have a short list in common, or
+ * one.  Points are `from` there, on `prims`; `box` holds all n of them.  Returns the end of those
+ * that *sight tells of. */
+uint32_t see_lamp(const struct tracer *t, const struct lamp *lamp, const struct vec3_batch *from,
+                  const uint32_t *prims, struct box box, uint32_t first, uint32_t n,
+                  struct sight *sight);
+/* Point k of them; LAMP_PARTLY: `own` lists what can be in its way. */
+enum lamp_view { LAMP_HIDDEN, LAMP_PARTLY, LAMP_OPEN };
+enum lamp_view lamp_view(const struct sight *sight, uint32_t k, struct target_list *own);
 
 /* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box.
  * Classic, but for point lights and suns, which have it in both. */
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
-
-/* What is known of the light at a point beforehand, and a list of what can shadow it. */
-enum lamp_view { LAMP_HIDDEN, LAMP_PARTLY, LAMP_OPEN };
-enum lamp_view lamp_view(struct worker *w, const struct lamp *lamp, const struct target_list *batch,
-                         const struct shade_point *s, struct target_list *own);
-/* What can stand between the box and the lamp. */
-void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
-                    struct target_list *list);
 /* How far a shadow ray to the light goes, in its own length. */
 double shadow_reach(const struct tracer *t, const struct light *light);
 /* Traces w->shadow_rays: which of them meet what blocks light. */

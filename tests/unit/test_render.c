@@ -283,10 +283,11 @@ START_TEST(skipping_skips)
     render_scene(&s, &o, p, &with);
     o.no_skip = true;
     render_scene(&s, &o, p, &without);
-    ck_assert_uint_eq(without.shadow_skipped, 0);
-    ck_assert_uint_gt(with.shadow_skipped, 0);
+    ck_assert_uint_eq(shadow_rays_skipped(&without), 0);
+    for (int i = 0; i < SKIP_REASONS; i++)
+        ck_assert_uint_gt(with.skipped[i], 0);
     ck_assert_uint_lt(with.shadow, without.shadow);
-    ck_assert_uint_ge(with.shadow + with.shadow_skipped, without.shadow);
+    ck_assert_uint_ge(with.shadow + shadow_rays_skipped(&with), without.shadow);
     ck_assert_uint_eq(with.reflection, without.reflection);
     ck_assert_uint_eq(with.refraction, without.refraction);
     picture_free(p);
