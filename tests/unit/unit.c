@@ -29,6 +29,7 @@ int main(void)
     srunner_add_suite(runner, print_suite());
     srunner_add_suite(runner, modern_suite());
     srunner_add_suite(runner, render_suite());
+    srunner_add_suite(runner, sight_suite());
     srunner_add_suite(runner, texture_suite());
     srunner_add_suite(runner, transform_suite());
     srunner_add_suite(runner, translate_suite());

@@ -24,6 +24,7 @@ Suite *print_suite(void);
 Suite *modern_suite(void);
 Suite *render_suite(void);
 Suite *schema_suite(void);
+Suite *sight_suite(void);
 Suite *syntax_suite(void);
 Suite *texture_suite(void);
 Suite *transform_suite(void);
