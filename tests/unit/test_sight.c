@@ -168,10 +168,14 @@ static void check_round(struct tracer *t, double size, struct tally *tally)
     struct vec3_batch points;
     uint32_t prims[BATCH_ROOM] = {0};
     struct vec3 middle = random_vector(below(2) ? 0 : 1e4 * size);
+    struct vec3 at = vec3_add(middle, random_vector(9 * size));
     for (uint32_t i = 0, n = 1 + below(12); i < n; i++)
-        add_blocker(&scene.geometry, vec3_add(middle, random_vector(5 * size)), 2 * size);
-    make_light(&light, vec3_add(middle, random_vector(9 * size)), size * uniform(0.01, 2),
-               t->modern);
+        add_blocker(&scene.geometry, vec3_add(middle, random_vector(5 * size)),
+                    2 * size * (below(2) ? 1 : uniform(0.01, 1)));
+    for (uint32_t n = below(3); n > 0; n--) /* near the light, small or large */
+        add_blocker(&scene.geometry, vec3_add(at, random_vector(size)),
+                    size * (below(2) ? 10 : 0.3));
+    make_light(&light, at, size * uniform(0.01, 2), t->modern);
     lamp_init(&lamp, &light, false, true);
     t->scene = &scene;
     accel_build(&t->accel, &scene.geometry, false);
