@@ -1,6 +1,6 @@
 #include "config.h"
 
-#include "accel/bvh.h"
+#include "accel/wide.h"
 
 #include <string.h>
 
@@ -180,19 +180,20 @@ static void build_nodes(struct builder *w, uint32_t n)
 }
 
 /* Only those are ever walked that some instance takes whole. */
-static struct accel *build_prototypes(const struct geometry *g, bool brute_force)
+static struct accel *build_prototypes(const struct geometry *g, const struct accel_options *options)
 {
     struct accel *a = g->prototypes.n ? mem_zalloc(g->prototypes.n, sizeof *a) : NULL;
     for (size_t i = 0; i < g->instances.n; i++) {
         const struct instance *instance = &g->instances.at[i];
         struct accel *prototype = &a[instance->prototype];
         if (instance->only == PRIM_NONE && !prototype->geometry)
-            accel_build(prototype, &g->prototypes.at[instance->prototype]->shapes, brute_force);
+            accel_build_with(prototype, &g->prototypes.at[instance->prototype]->shapes, options);
     }
     return a;
 }
 
-void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
+void accel_build_with(struct accel *a, const struct geometry *geometry,
+                      const struct accel_options *options)
 {
     uint32_t n = (uint32_t)geometry->prims.n;
     struct builder w = {.boxes = mem_alloc(n, sizeof *w.boxes),
@@ -205,7 +206,7 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
         w.centers[i] = box_center(w.boxes[i]);
         all = box_join(all, w.boxes[i]);
     }
-    if (!brute_force && n >= TREE_LEAST)
+    if (!options->brute_force && n >= TREE_LEAST)
         build_nodes(&w, n);
     *a = (struct accel){.geometry = geometry,
                         .targets = mem_alloc(n, sizeof *a->targets),
@@ -214,12 +215,19 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
                         .node_count = w.node_count,
                         .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0,
                         .padding = BOX_PADDING * (1 + geometry->worst_growth),
-                        .prototypes = build_prototypes(geometry, brute_force)};
+                        .prototypes = build_prototypes(geometry, options)};
     for (uint32_t i = 0; i < n; i++)
         a->targets[i] = target_of(geometry, w.order[i]);
+    a->wide = wide_build(a, options->isa, options->threads);
     free(w.boxes);
     free(w.centers);
     free(w.order);
+}
+
+void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)
+{
+    struct accel_options plain = {.brute_force = brute_force, .isa = ISA_PLAIN, .threads = 1};
+    accel_build_with(a, geometry, &plain);
 }
 
 void accel_free(struct accel *a)
@@ -227,6 +235,7 @@ void accel_free(struct accel *a)
     for (size_t i = 0; a->prototypes && i < a->geometry->prototypes.n; i++)
         accel_free(&a->prototypes[i]);
     free(a->prototypes);
+    wide_free(a->wide);
     free(a->nodes);
     free(a->targets);
     *a = (struct accel){0};

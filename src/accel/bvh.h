@@ -3,6 +3,7 @@
 #ifndef WRT_ACCEL_BVH_H
 #define WRT_ACCEL_BVH_H
 
+#include "base/isa.h"
 #include "scene/intersect.h"
 
 #include <stdbool.h>
@@ -22,15 +23,26 @@ struct accel {
     uint32_t target_count;
     struct bvh_node *nodes; /* root first; NULL: every primitive is tried */
     uint32_t node_count;
-    double reach;   /* largest |coordinate| of the geometry's bounds */
-    double padding; /* BOX_PADDING, times what instances add to rounding errors */
+    double reach;             /* largest |coordinate| of the geometry's bounds */
+    double padding;           /* BOX_PADDING, times what instances add to rounding errors */
     struct accel *prototypes; /* one for each of the geometry's; NULL: there are none */
+    struct wide *wide;        /* the nodes made ready for vector code, or NULL */
+};
+
+/* How an accel is built; all find the same hits. */
+struct accel_options {
+    bool brute_force; /* no tree: every primitive is tried */
+    enum isa isa;
+    unsigned threads; /* >= 1 */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */
 enum { BVH_DEPTH_LIMIT = 96 };
 
 /* The geometry must not change while the accel is used. */
+void accel_build_with(struct accel *a, const struct geometry *geometry,
+                      const struct accel_options *options);
+/* By plain code and one thread. */
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force);
 void accel_free(struct accel *a);
 

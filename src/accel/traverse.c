@@ -1,6 +1,6 @@
 #include "config.h"
 
-#include "accel/bvh.h"
+#include "accel/wide.h"
 #include "scene/instance.h"
 
 /* A ray made ready for box tests.  A box's near planes are met from an origin moved forwards by
@@ -36,11 +36,6 @@ static inline double enter_box(const struct walk *w, const double plane[2][3], d
     return near <= far ? near : INFINITY;
 }
 
-static inline bool is_skipped(const struct geometry *g, uint32_t prim, const struct ray *ray)
-{
-    return ray->surface != SURFACE_NONE && g->prims.at[prim].surface != ray->surface;
-}
-
 static bool find(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
                  bool any_hit, struct hit *hit);
 
@@ -58,14 +53,13 @@ static bool try_instance(const struct accel *a, struct target target, const stru
     return instance_offer(i, target.prim, &found, hit);
 }
 
-/* The best hit of a run of targets; with any_hit, the first found ends the search. */
 static inline bool try_run(const struct accel *a, uint32_t first, uint32_t count,
                            const struct ray *ray, const struct ray_frame *frame, bool any_hit,
                            struct hit *hit)
 {
     for (uint32_t i = first; i < first + count; i++) {
         struct target target = a->targets[i];
-        if (is_skipped(a->geometry, target.prim, ray))
+        if (accel_skips(a, target, ray))
             continue;
         bool met = target.kind == PRIM_INSTANCE
                        ? try_instance(a, target, ray, any_hit, hit)
@@ -74,6 +68,12 @@ static inline bool try_run(const struct accel *a, uint32_t first, uint32_t count
             return true;
     }
     return false;
+}
+
+bool accel_try_run(const struct accel *a, uint32_t first, uint32_t count, const struct ray *ray,
+                   const struct ray_frame *frame, bool any_hit, struct hit *hit)
+{
+    return try_run(a, first, count, ray, frame, any_hit, hit);
 }
 
 struct pending {
@@ -147,8 +147,11 @@ static bool find(const struct accel *a, const struct ray *ray, const struct ray_
     if (!a->nodes)
         return try_run(a, 0, a->target_count, ray, frame, any_hit, hit) || hit->prim != PRIM_NONE;
     if (any_hit)
-        return any_in_tree(a, ray, frame, hit);
-    closest_in_tree(a, ray, frame, hit);
+        return a->wide ? a->wide->kernels->any(a, ray, frame) : any_in_tree(a, ray, frame, hit);
+    if (a->wide)
+        a->wide->kernels->closest(a, ray, frame, hit);
+    else
+        closest_in_tree(a, ray, frame, hit);
     return hit->prim != PRIM_NONE;
 }
 

@@ -139,6 +139,17 @@ static inline vreal v_fma(vreal a, vreal b, vreal c)
     return _mm512_fmadd_pd(a, b, c);
 }
 
+/* a < b ? a : b, also where one is no number. */
+static inline vreal v_min(vreal a, vreal b)
+{
+    return _mm512_min_pd(a, b);
+}
+
+static inline vreal v_max(vreal a, vreal b)
+{
+    return _mm512_max_pd(a, b);
+}
+
 #else
 
 typedef vint vmask;
@@ -200,6 +211,16 @@ static inline vreal v_fma(vreal a, vreal b, vreal c)
     return _mm256_fmadd_pd(a, b, c);
 }
 
+static inline vreal v_min(vreal a, vreal b)
+{
+    return _mm256_min_pd(a, b);
+}
+
+static inline vreal v_max(vreal a, vreal b)
+{
+    return _mm256_max_pd(a, b);
+}
+
 #else
 
 static inline bool v_any_int(vint a)
@@ -232,6 +253,16 @@ static inline vreal v_fma(vreal a, vreal b, vreal c)
     return (vreal){fma(a[0], b[0], c[0]), fma(a[1], b[1], c[1])};
 }
 
+static inline vreal v_min(vreal a, vreal b)
+{
+    return v_select((vmask)(a < b), a, b);
+}
+
+static inline vreal v_max(vreal a, vreal b)
+{
+    return v_select((vmask)(b < a), a, b);
+}
+
 #endif
 
 static inline bool v_any(vmask m)
@@ -241,15 +272,14 @@ static inline bool v_any(vmask m)
 
 #endif
 
-/* a < b ? a : b, also where one is no number. */
-static inline vreal v_min(vreal a, vreal b)
+/* a b + c, rounded once or twice: for bounds only. */
+static inline vreal v_bound(vreal a, vreal b, vreal c)
 {
-    return v_select(v_less(a, b), a, b);
-}
-
-static inline vreal v_max(vreal a, vreal b)
-{
-    return v_select(v_less(b, a), a, b);
+#if LANES_HAVE_FMA
+    return v_fma(a, b, c);
+#else
+    return a * b + c;
+#endif
 }
 
 /* a / b where 1 / b is known.  The same bits as the division's by Markstein's theorem (Computation

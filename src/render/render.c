@@ -224,7 +224,8 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
     t->kernels = render_kernels_of(t->skips ? options->isa : ISA_PLAIN);
     t->modern = scene->model == SCENE_MODERN;
     t->shading = t->modern ? &shading_modern : &shading_classic;
-    accel_build(&t->accel, &scene->geometry, options->brute_force);
+    struct accel_options build = {options->brute_force, options->isa, options->threads};
+    accel_build_with(&t->accel, &scene->geometry, &build);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force, t->skips);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);

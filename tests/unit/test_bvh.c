@@ -92,33 +92,62 @@ static bool same_hit(const struct hit *a, const struct hit *b)
     return a->prim == b->prim && (a->prim == PRIM_NONE || (a->t == b->t && a->part == b->part));
 }
 
-static void compare(const struct accel *tree, const struct accel *brute, const struct ray *ray,
-                    struct hit *hit)
+/* A tree for each instruction set of this machine. */
+struct trees {
+    const struct geometry *geometry;
+    struct accel of[ISA_COUNT];
+};
+
+static struct trees trees_of(const struct geometry *g)
 {
-    struct hit other;
-    bool found = accel_closest(tree, ray, hit);
-    ck_assert_int_eq(found, accel_closest(brute, ray, &other));
-    ck_assert_msg(same_hit(hit, &other), "prim %u at %a, not %u at %a", hit->prim, hit->t,
-                  other.prim, other.t);
-    ck_assert_int_eq(found, accel_any(tree, ray));
-    ck_assert_int_eq(found, accel_any(brute, ray));
+    struct trees t = {.geometry = g};
+    for (int isa = 0; isa < ISA_COUNT; isa++)
+        if (isa_available((enum isa)isa))
+            accel_build_with(&t.of[isa], g,
+                             &(struct accel_options){.isa = (enum isa)isa, .threads = 2});
+    return t;
 }
 
-START_TEST(tree_agrees_with_brute_force)
+static void trees_free(struct trees *t)
+{
+    for (int isa = 0; isa < ISA_COUNT; isa++)
+        if (t->of[isa].geometry)
+            accel_free(&t->of[isa]);
+}
+
+/* All trees see what the search of everything sees, which becomes *hit. */
+static void compare(const struct trees *trees, const struct accel *brute, const struct ray *ray,
+                    struct hit *hit)
+{
+    bool found = accel_closest(brute, ray, hit);
+    ck_assert_int_eq(found, accel_any(brute, ray));
+    for (int isa = 0; isa < ISA_COUNT; isa++) {
+        const struct accel *tree = &trees->of[isa];
+        struct hit other;
+        if (!tree->geometry)
+            continue;
+        ck_assert_int_eq(found, accel_closest(tree, ray, &other));
+        ck_assert_msg(same_hit(hit, &other), "%s: prim %u at %a, not %u at %a",
+                      isa_name((enum isa)isa), other.prim, other.t, hit->prim, hit->t);
+        ck_assert_int_eq(found, accel_any(tree, ray));
+    }
+}
+
+START_TEST(trees_agree_with_brute_force)
 {
     double size = pow(10, _i % 5 * 4 - 8);
     struct geometry g = {0};
     counter = (uint64_t)_i << 40;
     for (uint32_t i = 0, n = 1 + below(120); i < n; i++)
         add_any(&g, i, size);
-    struct accel tree, brute;
-    accel_build(&tree, &g, false);
+    struct trees trees = trees_of(&g);
+    struct accel brute;
     accel_build(&brute, &g, true);
     ck_assert(brute.nodes == NULL);
-    for (int i = 0; i < TRIES(12000); i++) {
+    for (int i = 0; i < TRIES(4000); i++) {
         struct ray ray = any_ray(&g, size);
         struct hit hit;
-        compare(&tree, &brute, &ray, &hit);
+        compare(&trees, &brute, &ray, &hit);
         if (hit.prim == PRIM_NONE)
             continue;
         struct vec3 normal, p = geometry_hit_point(&g, &ray, &hit, &normal);
@@ -127,9 +156,9 @@ START_TEST(tree_agrees_with_brute_force)
         spawned.origin = p;
         spawned.from = hit.prim;
         spawned.spawned = true;
-        compare(&tree, &brute, &spawned, &hit);
+        compare(&trees, &brute, &spawned, &hit);
     }
-    accel_free(&tree);
+    trees_free(&trees);
     accel_free(&brute);
     geometry_free(&g);
 }
@@ -261,18 +290,20 @@ START_TEST(equal_triangles_end)
         geometry_add_vertex(&g, vec3(k == 1, k == 2, 0));
     for (int i = 0; i < 100000; i++)
         geometry_add_triangle(&g, 0, 0, 1, 2);
-    struct accel tree;
-    accel_build(&tree, &g, false);
+    struct trees trees = trees_of(&g);
+    struct accel brute;
+    accel_build(&brute, &g, true);
     struct ray ray = {.origin = vec3(0.25, 0.25, 1),
                       .direction = vec3(0, 0, -1),
                       .t_max = 10,
                       .from = PRIM_NONE,
                       .surface = SURFACE_NONE};
     struct hit hit;
-    ck_assert(accel_closest(&tree, &ray, &hit));
+    compare(&trees, &brute, &ray, &hit);
     ck_assert_uint_eq(hit.prim, 0);
     ck_assert(hit.t == 1);
-    accel_free(&tree);
+    trees_free(&trees);
+    accel_free(&brute);
     geometry_free(&g);
 }
 END_TEST
@@ -280,14 +311,16 @@ END_TEST
 START_TEST(nothing_is_hit_in_an_empty_geometry)
 {
     struct geometry g = {0};
-    struct accel tree;
-    accel_build(&tree, &g, false);
+    struct trees trees = trees_of(&g);
+    struct accel brute;
+    accel_build(&brute, &g, true);
     struct ray ray = {
         .direction = vec3(0, 0, -1), .t_max = 10, .from = PRIM_NONE, .surface = SURFACE_NONE};
     struct hit hit;
-    ck_assert(!accel_closest(&tree, &ray, &hit));
-    ck_assert(!accel_any(&tree, &ray));
-    accel_free(&tree);
+    compare(&trees, &brute, &ray, &hit);
+    ck_assert_uint_eq(hit.prim, PRIM_NONE);
+    trees_free(&trees);
+    accel_free(&brute);
 }
 END_TEST
 
@@ -313,13 +346,90 @@ static void add_far_ball(struct geometry *g)
     }
 }
 
+/* What leaves of nothing but triangles are made of: a bumpy cloth of small ones, some without area,
+ * some nine times over, somewhere far away, and a sphere so that not all leaves are. */
+static void add_cloth(struct geometry *g, struct vec3 at, double size)
+{
+    enum { N = 20 };
+    for (int i = 0; i < N * N; i++)
+        geometry_add_vertex(g, vec3_add(at, vec3(size * (i % N), size * (i / N),
+                                                 below(3) ? uniform(0, 2 * size) : 0)));
+    for (uint32_t i = 0; i < N - 1; i++) {
+        for (uint32_t j = 0; j < N - 1; j++) {
+            uint32_t a = i * N + j, b = below(20) ? a + 1 : a;
+            for (uint32_t k = 0; k < (below(40) ? 1 : 9); k++)
+                geometry_add_triangle(g, below(7), a, b, a + N);
+            geometry_add_triangle(g, below(7), b, a + N + 1, a + N);
+        }
+    }
+    geometry_add_sphere(g, 0, vec3_add(at, vec3_all(size * N / 2)), size);
+}
+
+static struct vec3 strange_direction(struct vec3 d)
+{
+    switch (below(30)) {
+    case 0:
+        return vec3(NAN, d.y, d.z);
+    case 1:
+        return vec3_all(0);
+    case 2:
+        return vec3(-0.0, d.y, 1e-300);
+    case 3:
+        return vec3(0, d.y, d.z);
+    case 4:
+        return vec3_scale(d, 1e-290);
+    case 5:
+        return vec3(0, 0, d.z);
+    case 6:
+        return vec3(d.x, INFINITY, d.z);
+    default:
+        return d;
+    }
+}
+
+START_TEST(cloth_agrees_with_brute_force)
+{
+    double size = pow(10, _i % 5 * 3 - 6);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(3) << 30;
+    struct vec3 at = random_vector(_i % 2 ? 1e7 * size : size);
+    add_cloth(&g, at, size);
+    struct trees trees = trees_of(&g);
+    struct accel brute;
+    accel_build(&brute, &g, true);
+    ck_assert_uint_gt(brute.target_count, 700);
+    for (int i = 0; i < TRIES(2000); i++) {
+        const struct vec3 *v = g.vertices.at + below((uint32_t)g.vertices.n - 20);
+        struct vec3 to = vec3_mad(v[0], below(2) ? uniform(0, 1) : 0, vec3_sub(v[19], v[0]));
+        struct ray ray = any_ray(&g, size);
+        struct hit hit;
+        ray.origin = vec3_add(at, random_vector(30 * size));
+        ray.direction = strange_direction(vec3_sub(to, ray.origin));
+        ray.t_max = below(2) ? RAY_UNBOUNDED : uniform(0.5, 1.5);
+        compare(&trees, &brute, &ray, &hit);
+        if (hit.prim == PRIM_NONE)
+            continue;
+        struct vec3 normal, p = geometry_hit_point(&g, &ray, &hit, &normal);
+        ray = (struct ray){.origin = p,
+                           .direction = vec3_sub(vec3_add(to, random_vector(3 * size)), p),
+                           .t_max = RAY_UNBOUNDED,
+                           .from = hit.prim,
+                           .surface = SURFACE_NONE,
+                           .spawned = true};
+        compare(&trees, &brute, &ray, &hit);
+    }
+    trees_free(&trees);
+    accel_free(&brute);
+    geometry_free(&g);
+}
+END_TEST
+
 START_TEST(closed_meshes_are_tight)
 {
     struct geometry g = {0};
     add_far_ball(&g);
-    struct accel tree;
-    accel_build(&tree, &g, false);
-    for (int i = 0; i < TRIES(300000); i++) {
+    struct trees trees = trees_of(&g);
+    for (int i = 0; i < TRIES(60000); i++) {
         const struct vec3 *v = g.vertices.at + below((uint32_t)g.vertices.n - 201);
         struct vec3 to = i % 3 == 0 ? v[0] : vec3_mad(v[0], uniform(0, 1), vec3_sub(v[1], v[0]));
         struct ray ray = {.origin = vec3_add(vec3(148376, 1234, -223423), random_vector(0.9)),
@@ -328,9 +438,10 @@ START_TEST(closed_meshes_are_tight)
                           .surface = SURFACE_NONE};
         ray.direction = i % 3 == 2 ? random_vector(1) : vec3_sub(to, ray.origin);
         struct hit hit;
-        ck_assert(accel_closest(&tree, &ray, &hit));
+        compare(&trees, &trees.of[ISA_PLAIN], &ray, &hit);
+        ck_assert_uint_ne(hit.prim, PRIM_NONE);
     }
-    accel_free(&tree);
+    trees_free(&trees);
     geometry_free(&g);
 }
 END_TEST
@@ -340,9 +451,10 @@ Suite *bvh_suite(void)
     Suite *s = suite_create("bvh");
     TCase *c = tcase_create("bvh");
     tcase_set_timeout(c, 120);
-    tcase_add_loop_test(c, tree_agrees_with_brute_force, 0, 50);
+    tcase_add_loop_test(c, trees_agree_with_brute_force, 0, 50);
     tcase_add_loop_test(c, bundles_see_what_single_rays_see, 0, 10);
     tcase_add_loop_test(c, shafts_hold_all_shadow_rays, 0, 10);
+    tcase_add_loop_test(c, cloth_agrees_with_brute_force, 0, 10);
     tcase_add_test(c, equal_triangles_end);
     tcase_add_test(c, nothing_is_hit_in_an_empty_geometry);
     tcase_add_test(c, closed_meshes_are_tight);

@@ -1,0 +1,70 @@
+/* The tree of boxes once more, eight children a node, for vector code: the same hits, sooner. */
+#ifndef WRT_ACCEL_WIDE_H
+#define WRT_ACCEL_WIDE_H
+
+#include "accel/bvh.h"
+#include "base/isa.h"
+
+#include <stdalign.h>
+
+enum { WIDE = 8 };
+
+enum wide_kind {
+    WIDE_RUN,       /* a leaf of any primitives: `count` of the accel's targets from `first` on */
+    WIDE_TRIANGLES, /* a leaf of `count` triangles: block `first` */
+    WIDE_NODE,      /* node `first` */
+};
+
+/* Zero: nothing at all. */
+struct wide_child {
+    uint32_t first;
+    uint32_t kind : 2, count : 30;
+};
+
+struct wide_node {
+    alignas(64) double plane[2][3][WIDE]; /* lower or upper, axis, child */
+    struct wide_child child[WIDE];
+};
+
+/* The triangles of a leaf side by side. */
+struct triangle_block {
+    alignas(64) double corner[3][3][WIDE]; /* corner, axis, triangle */
+    struct target target[WIDE];
+};
+
+/* What an instruction set has its own code for: a ray against the whole tree. */
+struct wide_kernels {
+    /* Puts the nearest hit that beats *hit into it. */
+    void (*closest)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                    struct hit *hit);
+    /* Whether anything is hit within the ray's t_max. */
+    bool (*any)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame);
+};
+
+extern const struct wide_kernels wide_generic, wide_avx2, wide_avx512;
+
+struct wide {
+    const struct wide_kernels *kernels;
+    struct wide_node *nodes; /* root first */
+    struct triangle_block *blocks;
+    uint32_t node_count, block_count;
+};
+
+/* Each level takes up to WIDE - 1 children to come back to. */
+enum { WIDE_STACK = BVH_DEPTH_LIMIT * (WIDE - 1) + 1 };
+
+/* From the accel's nodes; NULL when it has none, or the instruction set no vectors. */
+struct wide *wide_build(const struct accel *a, enum isa isa, unsigned threads);
+void wide_free(struct wide *w);
+
+/* traverse.c: the best hit of a run of targets; with any_hit, the first found ends the search. */
+bool accel_try_run(const struct accel *a, uint32_t first, uint32_t count, const struct ray *ray,
+                   const struct ray_frame *frame, bool any_hit, struct hit *hit);
+
+static inline bool accel_skips(const struct accel *a, struct target target, const struct ray *ray)
+{
+    return ray->surface != SURFACE_NONE &&
+           a->geometry->prims.at[target.prim].surface != ray->surface;
+}
+
+#endif
