@@ -147,7 +147,8 @@ static bool find(const struct accel *a, const struct ray *ray, const struct ray_
     if (!a->nodes)
         return try_run(a, 0, a->target_count, ray, frame, any_hit, hit) || hit->prim != PRIM_NONE;
     if (any_hit)
-        return a->wide ? a->wide->kernels->any(a, ray, frame) : any_in_tree(a, ray, frame, hit);
+        return a->wide ? a->wide->kernels->any(a, ray, frame, hit)
+                       : any_in_tree(a, ray, frame, hit);
     if (a->wide)
         a->wide->kernels->closest(a, ray, frame, hit);
     else

@@ -37,8 +37,9 @@ struct wide_kernels {
     /* Puts the nearest hit that beats *hit into it. */
     void (*closest)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
                     struct hit *hit);
-    /* Whether anything is hit within the ray's t_max. */
-    bool (*any)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame);
+    /* Puts some hit into it that beats it; whether there is one. */
+    bool (*any)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                struct hit *hit);
 };
 
 extern const struct wide_kernels wide_generic, wide_avx2, wide_avx512;

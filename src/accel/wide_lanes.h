@@ -159,17 +159,17 @@ static void closest_in_wide(const struct accel *a, const struct ray *ray,
     }
 }
 
-static bool any_in_wide(const struct accel *a, const struct ray *ray, const struct ray_frame *frame)
+static bool any_in_wide(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
+                        struct hit *hit)
 {
     struct wide_walk walk = wide_walk_along(a, ray);
     struct wide_child stack[WIDE_STACK];
-    struct hit hit = hit_none(ray->t_max);
     alignas(64) double enter[WIDE];
     stack[0] = (struct wide_child){0, WIDE_NODE, 0};
     for (int depth = 1; depth > 0;) {
         struct wide_child at = stack[--depth];
         if (at.kind != WIDE_NODE) {
-            if (meet_leaf(a, at, ray, frame, true, &hit))
+            if (meet_leaf(a, at, ray, frame, true, hit))
                 return true;
             continue;
         }

@@ -386,7 +386,10 @@ START_TEST(trees_agree_with_brute_force)
     counter = (uint64_t)_i << 40;
     fill_scene(&g, size, 1 + below(80));
     struct accel tree, brute;
-    accel_build(&tree, &g, false);
+    enum isa isa = (enum isa)(_i % ISA_COUNT);
+    accel_build_with(
+        &tree, &g,
+        &(struct accel_options){.isa = isa_available(isa) ? isa : isa_best(), .threads = 1});
     accel_build(&brute, &g, true);
     for (int i = 0; i < TRIES(6000); i++) {
         struct ray ray = i % 3 && g.instances.n ? grazing_ray(&g, size) : any_ray(size);
@@ -457,7 +460,7 @@ START_TEST(equal_instances_tie_in_file_order)
     for (uint32_t i = 0; i < 9; i++)
         add_any(&g, i, 2, &map);
     struct accel tree;
-    accel_build(&tree, &g, false);
+    accel_build_with(&tree, &g, &(struct accel_options){.isa = isa_best(), .threads = 1});
     for (int i = 0; i < 1000; i++) {
         struct ray ray = ray_to(random_vector(50), vec3_add(vec3(1, 2, 3), random_vector(0.9)));
         struct hit hit;
