@@ -205,10 +205,12 @@ static const enum schema_prop_id transforms[] = {PROP_TRANSLATE, PROP_ROTATE, PR
                                                  PROP_MATRIX};
 enum { TRANSFORMS = sizeof transforms / sizeof *transforms };
 
+/* Text that did not parse may give anything. */
 static bool gives(const struct ast_node *members, enum schema_prop_id id)
 {
     for (const struct ast_node *m = members; m; m = m->next)
-        if (m->kind == AST_PROPERTY && str_is(m->name, schema_props[id].native))
+        if (m->kind == AST_ERROR ||
+            (m->kind == AST_PROPERTY && str_is(m->name, schema_props[id].native)))
             return true;
     return false;
 }

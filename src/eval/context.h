@@ -123,6 +123,7 @@ struct eval {
     struct desc_prop *group_material;        /* of the groups around, or NULL */
     struct arena group_arena;                /* properties of the groups around */
     VEC(struct span) damaged; /* texts that did not parse: what they name is not missed */
+    bool defaults_lost;       /* one of them may be a `default` */
     struct map missed;        /* names that are not defined, to where that was told */
     bool names_lost;          /* a file that may define any name was not read */
     unsigned inside;          /* enum inside */

@@ -282,8 +282,11 @@ static const char *body_words(unsigned inside)
 void eval_statement(struct eval *e, const struct ast_node *node)
 {
     const struct rule *r = &rules[node->kind];
-    if (node->kind == AST_ERROR)
+    if (node->kind == AST_ERROR) {
+        struct str text = srcmap_text(e->diag->sources, node->span);
         vec_push(&e->damaged, node->span);
+        e->defaults_lost |= memmem(text.at, text.n, "default", strlen("default")) != NULL;
+    }
     if (!r->run) /* AST_VERSION says nothing more */
         return;
     if (e->inside & r->banned) {

@@ -12,6 +12,7 @@ struct desc_object *object_new(struct eval *e, struct arena *a, enum schema_kind
     o->xml = node->xml;
     o->span = node->name_span;
     o->frame = frame_keep(e);
+    o->broken = e->defaults_lost;
     return o;
 }
 

@@ -39,21 +39,57 @@ static struct span covered(const struct ast *ast, const struct surroundings *s, 
     return s->after ? s->after->span : (struct span){0, 0};
 }
 
-/* The names in the comment's parentheses; false when it is another comment. */
-static bool find_names(const struct ast *ast, struct span comment, struct span *names)
+static const char *skip_blanks(const char *at, const char *end)
 {
-    static const char mark[] = "wrt: allow(";
-    struct str text = {text_at(ast, comment.begin), comment.end - comment.begin};
+    while (at < end && (*at == ' ' || *at == '\t'))
+        at++;
+    return at;
+}
+
+static const char *skip_letters(const char *at, const char *end)
+{
+    while (at < end && (((*at | 32) >= 'a' && (*at | 32) <= 'z') || *at == '-' || *at == '_'))
+        at++;
+    return at;
+}
+
+/* A comment that begins with `wrt:` and goes on otherwise: prose, unless it is spelt like the real
+ * thing. */
+static void check_word(struct diag *diag, struct span span, bool opens)
+{
+    struct str word = srcmap_text(diag->sources, span);
+    if (!word.n || (!opens && str_distance(word, str_of("allow")) > 1))
+        return;
+    struct diag_entry *e =
+        str_is(word, "allow")
+            ? diag_report(diag, DIAG_UNUSED_ALLOW, span,
+                          "expected 'allow(name)'; nothing is allowed")
+            : diag_report(diag, DIAG_UNUSED_ALLOW, span,
+                          "no comment of wrt says '%.*s'; nothing is allowed", STR_ARG(word));
+    if (!str_is(word, "allow"))
+        diag_did_you_mean(e, span, str_of("allow"));
+}
+
+/* The names in the comment's parentheses; false when it is another comment. */
+static bool find_names(struct allows *a, struct span comment, struct span *names)
+{
+    struct str text = {text_at(a->ast, comment.begin), comment.end - comment.begin};
     const char *at = text.at, *end = text.at + text.n;
     while (at < end && strchr("/*<!- \t", *at))
         at++;
-    if (!str_begins((struct str){at, (size_t)(end - at)}, mark))
+    if (!str_begins((struct str){at, (size_t)(end - at)}, "wrt:"))
         return false;
-    at += sizeof mark - 1;
-    const char *close = memchr(at, ')', (size_t)(end - at));
-    if (!close)
+    const char *word = skip_blanks(at + strlen("wrt:"), end), *behind = skip_letters(word, end);
+    struct span span = {comment.begin + (uint32_t)(word - text.at),
+                        comment.begin + (uint32_t)(behind - text.at)};
+    at = skip_blanks(behind, end);
+    bool opens = at < end && *at == '(';
+    const char *close = opens ? memchr(at, ')', (size_t)(end - at)) : NULL;
+    if (!close || !str_is((struct str){word, (size_t)(behind - word)}, "allow")) {
+        check_word(a->diag, span, opens);
         return false;
-    names->begin = comment.begin + (uint32_t)(at - text.at);
+    }
+    names->begin = comment.begin + (uint32_t)(at + 1 - text.at);
     names->end = comment.begin + (uint32_t)(close - text.at);
     return true;
 }
@@ -61,7 +97,7 @@ static bool find_names(const struct ast *ast, struct span comment, struct span *
 static void take_comment(struct allows *a, const struct surroundings *s)
 {
     struct span comment = a->ast->trivia.at[a->next++].span, names;
-    if (!find_names(a->ast, comment, &names))
+    if (!find_names(a, comment, &names))
         return;
     struct span where = covered(a->ast, s, comment);
     for (uint32_t at = names.begin; at <= names.end;) {
@@ -109,6 +145,6 @@ void syntax_find_allows(const struct ast *ast, struct diag *diag)
 {
     struct allows a = {.ast = ast, .diag = diag};
     struct str text = {ast->source->text, ast->source->n};
-    if (memmem(text.at, text.n, "wrt: allow(", strlen("wrt: allow(")))
+    if (memmem(text.at, text.n, "wrt:", strlen("wrt:")))
         walk(&a, ast->statements, NULL, UINT32_MAX);
 }

@@ -205,7 +205,65 @@ static void report_unopened(struct parser *p, struct span span, struct str closi
     diag_fix(e, (struct span){bare.begin, bare.begin}, DIAG_FIX_MAYBE, "<");
 }
 
+/* `<radius>1<radius>` */
+static void report_second_opening(struct parser *p, const struct open_element *top,
+                                  struct span span)
+{
+    struct diag_entry *e = diag_report(p->diag, DIAG_XML_CLOSING_TAG, span,
+                                       "expected '</%.*s>', the closing tag", STR_ARG(top->name));
+    label_opening(e, top);
+    diag_fix(e, span, DIAG_FIX_MAYBE, "</%.*s", STR_ARG(top->name));
+}
+
 /* ---- the tokens ---- */
+
+/* The opening tag of an element that holds text already has its name, and nothing else. */
+static bool is_second_opening(const struct parser *p, const struct open_element *top,
+                              struct str name, struct span span)
+{
+    if (!top->text_end || !str_equal(top->name, name))
+        return false;
+    xml_release(p->scanner);
+    return *text_at(p, span.end) == '>';
+}
+
+static bool is_section(struct str name)
+{
+    static const char sections[] = "camera lights textures surfaces";
+    for (unsigned i = 0; str_nth_word(sections, i).n; i++)
+        if (str_equal(name, str_nth_word(sections, i)))
+            return true;
+    return false;
+}
+
+/* A section of the scene closes the one before it, whose closing tag is missing. */
+static int close_section(struct parser *p, struct str name, struct span span)
+{
+    size_t n = p->open.n - 1;
+    char closes[80];
+    snprintf(closes, sizeof closes, "'<%.*s>'", STR_ARG(name));
+    if (!follows_from_loss(p))
+        report_unclosed(p, (struct span){span.begin, span.begin}, n, closes);
+    p->held[p->held_count++] = (struct held){TOKEN_XML_OPEN, name, span};
+    p->closes_due = n - 1;
+    pop(p);
+    return TOKEN_XML_CLOSE;
+}
+
+static int open_element(struct parser *p, struct str name, struct span span)
+{
+    if (p->open.n > 1 && is_section(name) && is_section(p->open.at[1].name))
+        return close_section(p, name, span);
+    const struct open_element *top = top_of(p);
+    if (!top || !is_second_opening(p, top, name, span)) {
+        open_tag(p, name, span);
+        return TOKEN_XML_OPEN;
+    }
+    report_second_opening(p, top, span);
+    p->tag_end_lost = true;
+    pop(p);
+    return TOKEN_XML_CLOSE;
+}
 
 /* A closing tag of a name that no open element has.  It closes the innermost one under a wrong
  * name, unless that one's own closing tag is still to come. */
@@ -266,7 +324,10 @@ int xml_balance(struct parser *p, int token, struct span span, struct str name)
 {
     switch (token) {
     case TOKEN_XML_OPEN:
-        open_tag(p, name, span);
+        return open_element(p, name, span);
+    case TOKEN_XML_TAG_END:
+        token = p->tag_end_lost ? XML_SKIPPED : token;
+        p->tag_end_lost = false;
         return token;
     case TOKEN_XML_TEXT:
         note_text(p, span, name);

@@ -78,10 +78,10 @@ static const char *skip_vector(const char *at)
     return at && *at == ')' && (n == 2 || n == 3) ? at + 1 : NULL;
 }
 
-/* A word that may begin the next member or statement. */
+/* A word that may begin the next member or statement; units that stand apart are none. */
 static bool begins_statement(const char *word)
 {
-    static const char *const others[] = {"in", "else", "true", "false", "wrt"};
+    static const char *const others[] = {"in", "else", "true", "false", "wrt", "deg", "rad"};
     if (!is_letter(*word) && *word != '_')
         return false;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {

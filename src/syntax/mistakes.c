@@ -20,7 +20,7 @@ static void list_words(char *out, size_t room, const char *const *words, size_t 
     }
 }
 
-static bool on_later_line(const struct parser *p, struct span found)
+bool parser_on_later_line(const struct parser *p, struct span found)
 {
     struct str gap = srcmap_text(p->diag->sources, (struct span){p->previous.end, found.begin});
     return p->previous.end > p->source->base && gap.n && memchr(gap.at, '\n', gap.n);
@@ -30,7 +30,7 @@ static bool on_later_line(const struct parser *p, struct span found)
  * on a later line. */
 static struct span place_of_error(const struct parser *p, struct span found)
 {
-    return on_later_line(p, found) ? (struct span){p->previous.end, p->previous.end} : found;
+    return parser_on_later_line(p, found) ? (struct span){p->previous.end, p->previous.end} : found;
 }
 
 /* What may follow any value: expected in so many places that naming it helps nobody. */
@@ -62,58 +62,22 @@ static size_t summarise(const char *const *expected, size_t n, const char **out)
     return kept <= MOST ? kept : 0;
 }
 
-static bool is_keyword(struct str word)
+/* A value follows the name of a member at once. */
+static bool lacks_colon(const struct parser *p, struct span span, const char *const *expected,
+                        size_t n)
 {
-    static const char *const words[] = {"wrt",     "model",  "include", "param",    "let",    "fn",
-                                        "default", "define", "assert",  "for",      "in",     "if",
-                                        "else",    "true",   "false",   "material", "texture"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (str_is(word, words[i]))
-            return true;
+    struct str found = srcmap_text(p->diag->sources, span);
+    bool value = found.n && (strchr("#\"", *found.at) || (*found.at >= '0' && *found.at <= '9'));
+    for (size_t i = 0; i < n && value; i++)
+        if (strcmp(expected[i], "':'") == 0)
+            return strcmp(expected[0], "name") == 0;
     return false;
 }
 
-/* A value or a name, as far as its first character tells. */
-static bool begins_item(struct str found)
+static size_t only_colon(const char **out)
 {
-    return found.n &&
-           (strchr("([\"#_", found.at[0]) || (found.at[0] >= '0' && found.at[0] <= '9') ||
-            ((found.at[0] | 32) >= 'a' && (found.at[0] | 32) <= 'z'));
-}
-
-/* A vector in the manner of POV-Ray, if it ends on its line. */
-static void add_angle_brackets(const struct parser *p, struct diag_entry *e, struct span span)
-{
-    native_release(p->scanner);
-    const char *text = p->source->text + (span.begin - p->source->base);
-    size_t end = strcspn(text + 1, "<>\n") + 1;
-    diag_note(e, "vectors are written (x, y, z)");
-    if (text[end] != '>')
-        return;
-    struct span closing = {span.begin + (uint32_t)end, span.begin + (uint32_t)end + 1};
-    diag_fix(e, span, DIAG_FIX_MAYBE, "(");
-    diag_fix(e, closing, DIAG_FIX_MAYBE, ")");
-}
-
-/* How to write what was probably meant. */
-static void add_advice(const struct parser *p, struct diag_entry *e, struct span span,
-                       const char *const *expected, size_t n)
-{
-    struct str found = srcmap_text(p->diag->sources, span);
-    bool colon = false, name = false, comma = false;
-    for (size_t i = 0; i < n; i++) {
-        colon |= strcmp(expected[i], "':'") == 0;
-        name |= strcmp(expected[i], "name") == 0;
-        comma |= strcmp(expected[i], "','") == 0;
-    }
-    if (colon && str_is(found, "="))
-        diag_note(e, "a property is written 'name: value'");
-    else if (str_is(found, "<") && n == 1 && strcmp(expected[0], "value") == 0)
-        add_angle_brackets(p, e, span);
-    else if (comma && begins_item(found) && !on_later_line(p, span))
-        diag_note(e, "commas stand between the items of lists, vectors and calls");
-    else if (name && is_keyword(found))
-        diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
+    out[0] = "':'";
+    return 1;
 }
 
 /* The text ends inside brackets. */
@@ -147,7 +111,7 @@ static bool is_left_over(const struct parser *p, struct span span, bool vague)
         return false;
     struct str between = srcmap_text(p->diag->sources, (struct span){p->astray, span.begin});
     if (!between.n || !memchr(between.at, '\n', between.n))
-        return vague || p->since <= FEW;
+        return vague || p->unsure || p->since <= FEW;
     return str_is(srcmap_text(p->diag->sources, span), "}") &&
            indentation(p, span.begin) == indentation(p, p->astray);
 }
@@ -157,9 +121,15 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
 {
     if (p->stopped || p->feigned)
         return;
+    if (p->trail.last == TOKEN_BAD_VALUE && !p->ast->xml) {
+        p->astray = span.begin;
+        return; /* the token was reported already */
+    }
+    if (!p->ast->xml)
+        native_release(p->scanner); /* the text is read here */
     const char *shown[EXPECTED_MOST];
     char words[256], what[80];
-    n = summarise(expected, n, shown);
+    n = lacks_colon(p, span, expected, n) ? only_colon(shown) : summarise(expected, n, shown);
     if (is_left_over(p, span, !n))
         return;
     bool value = n == 1 && strcmp(shown[0], "value") == 0;
@@ -174,14 +144,14 @@ void parser_syntax_error(struct parser *p, struct span span, const char *found, 
         snprintf(what, sizeof what, "'%.*s'", STR_ARG(text));
     else
         snprintf(what, sizeof what, "the %s", found);
-    p->astray = span.begin;
     bool something_else = n && strcmp(shown[0], "end of file") != 0;
     struct span place = something_else || at_end ? place_of_error(p, span) : span;
+    p->astray = place.begin;
     struct diag_entry *e =
         n ? diag_report(p->diag, DIAG_SYNTAX, place, "expected %s, but found %s", words, what)
         : at_end ? diag_report(p->diag, DIAG_SYNTAX, place, "the text ends too early")
                  : diag_report(p->diag, DIAG_SYNTAX, place, "%s cannot stand here", what);
-    add_advice(p, e, span, shown, n);
+    parser_advise(p, e, span, shown, n);
 }
 
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message)
@@ -199,6 +169,8 @@ static void add_double(struct diag_entry *e, struct span span, struct str text)
 
 void parser_stray(struct parser *p, struct span span, struct str text)
 {
+    p->astray = span.begin;
+    p->since = 0;
     if (text.n == 1 && ((unsigned char)text.at[0] < 32 || text.at[0] == 127))
         diag_report(p->diag, DIAG_SYNTAX, span, "a control character (U+%04X) cannot stand here",
                     (unsigned)(unsigned char)text.at[0]);

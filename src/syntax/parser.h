@@ -36,7 +36,7 @@ struct missing {
 
 enum { MISSING_LIMIT = 16 };
 
-/* Native: a token that was scanned, but waits. */
+/* A token that was scanned, but waits. */
 struct held {
     int token;
     struct str text;
@@ -62,20 +62,24 @@ struct parser {
     struct trail trail;                    /* native */
     struct missing missing[MISSING_LIMIT]; /* native: by place, as far as they are known */
     unsigned missing_count, missing_next;
-    struct held held[2]; /* native: tokens to give next, the last one first */
-    unsigned held_count;
-    uint32_t astray;    /* native: where the last syntax error was; 0: none yet */
-    uint32_t resumed;   /* native: where reading went on behind it; 0: nowhere yet */
-    unsigned since;     /* native: tokens read since */
-    uint32_t unmatched; /* native: the last bracket that closes nothing */
+    struct held held[2];   /* tokens to give next, the last one first */
+    unsigned held_count;   /* XML: one at most */
+    uint32_t astray;       /* native: where the last syntax error was; 0: none yet */
+    uint32_t resumed;      /* native: where reading went on behind it; 0: nowhere yet */
+    unsigned since;        /* native: tokens read since */
+    uint32_t unmatched;    /* native: the last bracket that closes nothing */
+    uint32_t bracket_at;   /* native: the last bracket */
+    unsigned depth_before; /* native: how many were open before it */
+    bool unsure;           /* native: reading went on at what may belong to the lost text */
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
     size_t closes_due;             /* XML: closing tags to feign */
-    uint32_t lost_in; /* XML: a tag was damaged where so many elements were open; 0: none */
-    bool tag_end_due; /* XML: a `>` to feign */
-    bool behind_tag;  /* XML: no text came since the last tag */
-    bool feigned;     /* XML: the token stands for one whose absence was reported */
+    uint32_t lost_in;  /* XML: a tag was damaged where so many elements were open; 0: none */
+    bool tag_end_due;  /* XML: a `>` to feign */
+    bool tag_end_lost; /* XML: a `>` to pass over */
+    bool behind_tag;   /* XML: no text came since the last tag */
+    bool feigned;      /* XML: the token stands for one whose absence was reported */
 };
 
 /* ---- tokens.c: for both scanners ---- */
@@ -170,10 +174,22 @@ bool parser_resume(struct parser *p, struct span *lost);
 int parser_mend_slip(struct parser *p, int token, struct span span, struct str text);
 /* Remembers a token for the next ones. */
 void parser_trail(struct parser *p, int token);
+/* The `=` or `:` that `:=` stands for. */
+int parser_walrus(struct parser *p, struct span span);
+/* Bytes of a string without end, from its quote on: what closes a bracket is no part of it. */
+size_t parser_endless_string(const char *at, size_t n);
+/* An angle whose unit stands apart. */
+void parser_far_unit(struct parser *p, struct span span, struct str number);
 void parser_single_quotes(struct parser *p, struct span span, struct str text);
 void parser_degree_sign(struct parser *p, struct span span);
 /* A number with a unit that is none. */
 void parser_bad_number(struct parser *p, struct span span, struct str text);
+
+/* ---- advice.c ---- */
+
+/* Says how to write what was probably meant, beside the error at this token. */
+void parser_advise(const struct parser *p, struct diag_entry *e, struct span span,
+                   const char *const *expected, size_t n);
 
 /* ---- mistakes.c: what both scanners and the grammar report ---- */
 
@@ -181,6 +197,7 @@ void parser_bad_number(struct parser *p, struct span span, struct str text);
 enum { EXPECTED_MOST = 64 };
 void parser_syntax_error(struct parser *p, struct span span, const char *found, bool at_end,
                          const char *const *expected, size_t n);
+bool parser_on_later_line(const struct parser *p, struct span found);
 /* What began at p->comment_begin never ends; points at its first `mark` bytes. */
 void parser_unterminated(struct parser *p, uint32_t mark, const char *message);
 void parser_stray(struct parser *p, struct span span, struct str text);

@@ -69,7 +69,7 @@ static bool resumes(const struct parser *p, int token, struct span span)
         return *text_behind(p, span) == ':' ? in_block(p) : !inside || begins_line(p, span);
     case TOKEN_FOR:
     case TOKEN_IF:
-        return !inside;
+        return !inside && begins_line(p, span);
     case TOKEN_MODEL:
     case TOKEN_INCLUDE:
     case TOKEN_PARAM:
@@ -113,5 +113,6 @@ bool parser_resume(struct parser *p, struct span *lost)
     bool onwards = token != TOKEN_END && span.begin > p->resumed;
     p->resumed = span.begin;
     p->since = 0;
+    p->unsure = brace || token == TOKEN_RBRACE;
     return onwards;
 }

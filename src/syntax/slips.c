@@ -46,11 +46,20 @@ static bool is_quoted_property(const struct parser *p, struct str text)
     return text.n > 0 && *at == ':';
 }
 
+/* Behind these a text in quotes may be a value with a colon behind it. */
+static bool needs_value(int token)
+{
+    return token == TOKEN_QUESTION || token == TOKEN_PLUS || token == TOKEN_EQUAL ||
+           token == TOKEN_NOT_EQUAL || token == TOKEN_COLON;
+}
+
 static int mend_quotes(struct parser *p, struct span span, struct str name)
 {
     struct diag_entry *e =
         diag_report(p->diag, DIAG_SYNTAX, span, "names of properties stand without quotes");
     diag_fix(e, span, DIAG_FIX_SAFE, "%.*s", STR_ARG(name));
+    p->astray = span.begin;
+    p->since = 0;
     return TOKEN_NAME;
 }
 
@@ -62,7 +71,8 @@ int parser_mend_slip(struct parser *p, int token, struct span span, struct str t
         return mend_sign(p, span, TOKEN_COLON, ":", "a property is written 'name: value'");
     if (token == TOKEN_COLON && t->last == TOKEN_NAME && defines(t->before))
         return mend_sign(p, span, TOKEN_EQUALS, "=", "a definition is written 'let name = value'");
-    if (token == TOKEN_STRING && p->member_due && is_quoted_property(p, text))
+    if (token == TOKEN_STRING && parser_bracket(p) == '{' && !needs_value(t->last) &&
+        is_quoted_property(p, text))
         return mend_quotes(p, span, text);
     return token;
 }
@@ -70,6 +80,30 @@ int parser_mend_slip(struct parser *p, int token, struct span span, struct str t
 void parser_trail(struct parser *p, int token)
 {
     p->trail = (struct trail){.before = p->trail.last, .last = token};
+}
+
+int parser_walrus(struct parser *p, struct span span)
+{
+    if (defines(p->trail.before))
+        return mend_sign(p, span, TOKEN_EQUALS, "=", "a definition is written 'let name = value'");
+    return mend_sign(p, span, TOKEN_COLON, ":", "a property is written 'name: value'");
+}
+
+size_t parser_endless_string(const char *at, size_t n)
+{
+    const char *brace = memchr(at, '}', n);
+    n = brace ? (size_t)(brace - at) : n;
+    while (n > 1 && strchr(" \t\r)],;", at[n - 1]))
+        n--;
+    return n;
+}
+
+void parser_far_unit(struct parser *p, struct span span, struct str number)
+{
+    struct str unit = srcmap_text(p->diag->sources, (struct span){span.end - 3, span.end});
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "a unit stands right behind its number");
+    diag_fix(e, span, DIAG_FIX_SAFE, "%.*s%.*s", STR_ARG(number), STR_ARG(unit));
 }
 
 void parser_single_quotes(struct parser *p, struct span span, struct str text)
@@ -86,16 +120,25 @@ void parser_degree_sign(struct parser *p, struct span span)
 
 void parser_bad_number(struct parser *p, struct span span, struct str text)
 {
+    if (defines(p->trail.last) || p->trail.last == TOKEN_FN || p->trail.last == TOKEN_DEFINE) {
+        diag_report(p->diag, DIAG_SYNTAX, span,
+                    "'%.*s' cannot be a name: names begin with a letter", STR_ARG(text));
+        return;
+    }
     struct diag_entry *e = diag_report(p->diag, DIAG_NUMBER_SYNTAX, span,
                                        "'%.*s' is not a number with a unit", STR_ARG(text));
     size_t digits = 0;
     while (digits < text.n && text.at[digits] >= '0' && text.at[digits] <= '9')
         digits++;
-    const char *x = digits < text.n && text.at[digits] == 'x' ? text.at + digits : NULL;
+    bool hexadecimal = digits == 1 && *text.at == '0';
+    const char *x =
+        digits < text.n && text.at[digits] == 'x' && !hexadecimal ? text.at + digits : NULL;
     if (x && digits > 0 && x + 1 < text.at + text.n && x[1] >= '0' && x[1] <= '9') {
         diag_note(e, "a size is written (width, height)");
         diag_fix(e, span, DIAG_FIX_MAYBE, "(%.*s, %.*s)", (int)digits, text.at,
                  (int)(text.at + text.n - x - 1), x + 1);
+    } else if (hexadecimal) {
+        diag_note(e, "numbers are decimal; a colour is '#' and six hexadecimal digits");
     } else {
         diag_note(e, "the units are 'deg' and 'rad', for angles; lengths have none");
     }

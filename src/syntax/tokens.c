@@ -24,6 +24,8 @@ void parser_stop(struct parser *p, enum diag_code code, struct span span, const 
 
 bool parser_nest(struct parser *p, struct span span)
 {
+    p->bracket_at = span.begin;
+    p->depth_before = p->depth;
     if (p->depth < NESTING_LIMIT) {
         p->brackets[p->depth++] = span;
         return true;
@@ -42,13 +44,14 @@ char parser_bracket(const struct parser *p)
  * around the block they stand in. */
 void parser_unnest(struct parser *p, char opening, uint32_t at)
 {
-    unsigned depth = p->depth;
+    p->bracket_at = at;
+    p->depth_before = p->depth;
     while (p->depth && parser_bracket(p) != opening && (opening == '{' || parser_bracket(p) != '{'))
         p->depth--;
     if (parser_bracket(p) == opening) {
         p->depth--;
     } else {
-        p->depth = depth;
+        p->depth = p->depth_before;
         p->unmatched = at;
     }
 }
@@ -66,6 +69,15 @@ struct span span_of_trimmed(struct span span, struct str text)
     return (struct span){begin, begin + (uint32_t)visible.n};
 }
 
+/* The token that waits. */
+static int take_held(SCENE_STYPE *value, struct span *span, struct parser *p)
+{
+    const struct held *h = &p->held[--p->held_count];
+    *span = h->span;
+    value->text = h->text;
+    return h->token;
+}
+
 static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
     *span = (struct span){p->at, p->at};
@@ -77,6 +89,11 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     if (xml_close_due(p))
         return TOKEN_XML_CLOSE;
     int token;
+    p->feigned = false;
+    if (p->held_count) {
+        token = take_held(value, span, p);
+        return xml_balance(p, token, *span, value->text);
+    }
     do {
         p->feigned = false;
         do /* blanks around the root element mean nothing, nor do those right behind a tag */
@@ -92,20 +109,11 @@ static int next_xml(SCENE_STYPE *value, struct span *span, struct parser *p)
     return token;
 }
 
-/* The token that waits, or a new one. */
-static int held_or_scanned(SCENE_STYPE *value, struct span *span, struct parser *p)
-{
-    if (!p->held_count)
-        return parser_mend_slip(p, native_scan(value, span, p->scanner), *span, value->text);
-    const struct held *h = &p->held[--p->held_count];
-    *span = h->span;
-    value->text = h->text;
-    return h->token;
-}
-
 static int next_native(SCENE_STYPE *value, struct span *span, struct parser *p)
 {
-    int token = held_or_scanned(value, span, p);
+    int token = p->held_count
+                    ? take_held(value, span, p)
+                    : parser_mend_slip(p, native_scan(value, span, p->scanner), *span, value->text);
     bool feigned = token == TOKEN_RBRACE && span->begin == span->end;
     int missing = feigned ? 0 : parser_missing_token(p, span->begin);
     if (missing) {

@@ -36,10 +36,13 @@ static void skip_to(struct reading *r, const char *mark, size_t from)
 /* Strings end on their line. */
 static void skip_string(struct reading *r)
 {
-    r->at++;
+    uint32_t begin = r->at++;
     while (r->at < r->n && r->text[r->at] != '"' && r->text[r->at] != '\n')
         r->at += r->text[r->at] == '\\' && r->at + 1 < r->n ? 2 : 1;
-    r->at += r->at < r->n && r->text[r->at] == '"';
+    if (r->at < r->n && r->text[r->at] == '"')
+        r->at++;
+    else
+        r->at = begin + (uint32_t)parser_endless_string(r->text + begin, r->at - begin);
 }
 
 static void begin_line(struct reading *r)
