@@ -25,6 +25,12 @@ static struct open_element *top_of(struct parser *p)
     return p->open.n ? &p->open.at[p->open.n - 1] : NULL;
 }
 
+/* Of elements of which there is one. */
+static const struct open_element *innermost(const struct parser *p)
+{
+    return &p->open.at[p->open.n - 1];
+}
+
 /* Takes the innermost element off the open ones. */
 static void pop(struct parser *p)
 {
@@ -155,7 +161,7 @@ static void label_opening(struct diag_entry *e, const struct open_element *o)
  * that; of the others the innermost one misses it here, before what `closes`. */
 static void report_unclosed(struct parser *p, struct span span, size_t n, const char *closes)
 {
-    const struct open_element *missing = top_of(p);
+    const struct open_element *missing = innermost(p);
     struct span place = span, insertion = {span.begin, span.begin};
     for (size_t i = n; i > 0; i--) {
         const struct open_element *o = &p->open.at[p->open.n - i];
@@ -165,6 +171,7 @@ static void report_unclosed(struct parser *p, struct span span, size_t n, const 
         place = insertion = (struct span){o->text_end, o->text_end};
         break;
     }
+    p->unclosed = missing->name;
     struct diag_entry *e =
         diag_report(p->diag, DIAG_XML_CLOSING_TAG, place, "'%.*s' is not closed before %s",
                     STR_ARG(missing->name), closes);
@@ -175,7 +182,7 @@ static void report_unclosed(struct parser *p, struct span span, size_t n, const 
 /* Opening and closing tag have different names: the one that no element of scenes has is wrong. */
 static void report_wrong_name(struct parser *p, struct span span, struct str closing)
 {
-    const struct open_element *top = top_of(p);
+    const struct open_element *top = innermost(p);
     if (is_known(closing) && !is_known(top->name)) {
         struct diag_entry *e =
             diag_report(p->diag, DIAG_XML_CLOSING_TAG, top->span, "'<%.*s>' is closed as '</%.*s>'",
@@ -193,6 +200,10 @@ static void report_wrong_name(struct parser *p, struct span span, struct str clo
 
 static void report_unopened(struct parser *p, struct span span, struct str closing)
 {
+    if (str_equal(closing, p->unclosed)) { /* it comes too late */
+        p->unclosed = (struct str){0};
+        return;
+    }
     struct span bare = find_bare_opening(p, span, closing);
     if (!span_known(bare)) {
         diag_report(p->diag, DIAG_XML_CLOSING_TAG, span, "'</%.*s>' closes nothing",
@@ -205,10 +216,11 @@ static void report_unopened(struct parser *p, struct span span, struct str closi
     diag_fix(e, (struct span){bare.begin, bare.begin}, DIAG_FIX_MAYBE, "<");
 }
 
-/* `<radius>1<radius>` */
+/* `<radius>1<radius>` or `<radius>1<radius/>` */
 static void report_second_opening(struct parser *p, const struct open_element *top,
                                   struct span span)
 {
+    span.end += *text_at(p, span.end) == '/';
     struct diag_entry *e = diag_report(p->diag, DIAG_XML_CLOSING_TAG, span,
                                        "expected '</%.*s>', the closing tag", STR_ARG(top->name));
     label_opening(e, top);
@@ -224,7 +236,8 @@ static bool is_second_opening(const struct parser *p, const struct open_element 
     if (!top->text_end || !str_equal(top->name, name))
         return false;
     xml_release(p->scanner);
-    return *text_at(p, span.end) == '>';
+    const char *end = text_at(p, span.end);
+    return *end == '>' || (*end == '/' && end[1] == '>');
 }
 
 static bool is_section(struct str name)
@@ -236,10 +249,22 @@ static bool is_section(struct str name)
     return false;
 }
 
-/* A section of the scene closes the one before it, whose closing tag is missing. */
-static int close_section(struct parser *p, struct str name, struct span span)
+/* How many open elements cannot hold one of this name: sections of the scene hold no sections,
+ * surfaces no surfaces and lights no lights. */
+static size_t closed_by_opening(const struct parser *p, struct str name)
 {
-    size_t n = p->open.n - 1;
+    enum { SECTION = 1, ITEM = 2 }; /* where they stand among the open ones */
+    bool item = str_is(name, "surface") || str_is(name, "light");
+    if (p->open.n > SECTION && is_section(name) && is_section(p->open.at[SECTION].name))
+        return p->open.n - SECTION;
+    if (p->open.n > ITEM && item && str_equal(name, p->open.at[ITEM].name))
+        return p->open.n - ITEM;
+    return 0;
+}
+
+/* The tag shows that the innermost n elements miss their closing tags; it waits behind those. */
+static int close_before(struct parser *p, struct str name, struct span span, size_t n)
+{
     char closes[80];
     snprintf(closes, sizeof closes, "'<%.*s>'", STR_ARG(name));
     if (!follows_from_loss(p))
@@ -250,10 +275,19 @@ static int close_section(struct parser *p, struct str name, struct span span)
     return TOKEN_XML_CLOSE;
 }
 
+/* The end of a tag that was taken for a closing one is passed over. */
+static int end_tag(struct parser *p, int token)
+{
+    bool lost = p->tag_end_lost;
+    p->tag_end_lost = false;
+    return lost ? XML_SKIPPED : token;
+}
+
 static int open_element(struct parser *p, struct str name, struct span span)
 {
-    if (p->open.n > 1 && is_section(name) && is_section(p->open.at[1].name))
-        return close_section(p, name, span);
+    size_t n = closed_by_opening(p, name);
+    if (n)
+        return close_before(p, name, span, n);
     const struct open_element *top = top_of(p);
     if (!top || !is_second_opening(p, top, name, span)) {
         open_tag(p, name, span);
@@ -269,7 +303,8 @@ static int open_element(struct parser *p, struct str name, struct span span)
  * name, unless that one's own closing tag is still to come. */
 static int close_unknown(struct parser *p, struct str name, struct span span)
 {
-    bool stray = str_equal(next_closing(p), top_of(p)->name);
+    bool stray = str_equal(next_closing(p), innermost(p)->name) ||
+                 span_known(find_bare_opening(p, span, name));
     if (!follows_from_loss(p)) {
         if (stray)
             report_unopened(p, span, name);
@@ -290,6 +325,11 @@ static int close_tag(struct parser *p, struct str name, struct span span)
     size_t n = name.n ? closed_by(p, name) : 1;
     if (n == 0)
         return close_unknown(p, name, span);
+    if (n == 2 && str_equal(next_closing(p), name) && !follows_from_loss(p)) {
+        report_wrong_name(p, span, name); /* the element around is closed later */
+        pop(p);
+        return TOKEN_XML_CLOSE;
+    }
     if (n > 1 && !follows_from_loss(p)) {
         char closes[80];
         snprintf(closes, sizeof closes, "'</%.*s>'", name.n < 60 ? (int)name.n : 60, name.at);
@@ -326,13 +366,13 @@ int xml_balance(struct parser *p, int token, struct span span, struct str name)
     case TOKEN_XML_OPEN:
         return open_element(p, name, span);
     case TOKEN_XML_TAG_END:
-        token = p->tag_end_lost ? XML_SKIPPED : token;
-        p->tag_end_lost = false;
-        return token;
+        return end_tag(p, token);
     case TOKEN_XML_TEXT:
         note_text(p, span, name);
         return token;
     case TOKEN_XML_EMPTY_END:
+        if (p->tag_end_lost)
+            return end_tag(p, token);
         p->open.n -= p->open.n > 0;
         return token;
     case TOKEN_XML_CLOSE:

@@ -192,6 +192,23 @@ void xml_unclosed_tag(struct parser *p, uint32_t end)
     p->feigned = true;
 }
 
+void xml_damaged_tag(struct parser *p, uint32_t end)
+{
+    if (p->open.n && p->astray > p->open.at[p->open.n - 1].span.begin) {
+        xml_lose_tag(p);
+        p->feigned = true;
+    } else {
+        xml_unclosed_tag(p, end);
+    }
+}
+
+void xml_backward_tag(struct parser *p, struct span span)
+{
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "a closing tag begins with '</'");
+    diag_fix(e, (struct span){span.begin, span.begin + 2}, DIAG_FIX_MAYBE, "</");
+}
+
 void xml_nameless_tag(struct parser *p, struct span span)
 {
     diag_report(p->diag, DIAG_SYNTAX, span, "expected a name behind '</'");
@@ -201,12 +218,22 @@ void xml_nameless_tag(struct parser *p, struct span span)
 
 void xml_declaration(struct parser *p, struct span span)
 {
-    struct str text = srcmap_text(p->diag->sources, span);
-    if (str_is(text, "<!DOCTYPE"))
+    static const char doctype[] = "<!DOCTYPE";
+    if (str_begins(srcmap_text(p->diag->sources, span), doctype)) {
+        span.end = span.begin + sizeof doctype - 1;
         parser_stop(p, DIAG_XML_DTD, span,
                     "a document type declaration is never read, so the scene is refused");
-    else
-        parser_stop(p, DIAG_SYNTAX, span, "a declaration cannot stand here");
+        return;
+    }
+    struct str text = srcmap_text(p->diag->sources, span);
+    size_t n = 2;
+    while (n < text.n && (text.at[n] | 32) >= 'a' && (text.at[n] | 32) <= 'z')
+        n++;
+    span.end = span.begin + (uint32_t)n;
+    xml_lose_tag(p);
+    struct diag_entry *e =
+        diag_report(p->diag, DIAG_SYNTAX, span, "a declaration cannot stand here");
+    diag_note(e, "comments stand between '<!--' and '-->'");
 }
 
 void xml_stray_less(struct parser *p, struct span span)

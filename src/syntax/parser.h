@@ -74,6 +74,7 @@ struct parser {
 
     struct ast_node *no_text;      /* XML: the text of all empty leaves; NULL: none yet */
     VEC(struct open_element) open; /* XML: elements not yet closed */
+    struct str unclosed;           /* XML: the last element told not to be closed */
     size_t closes_due;             /* XML: closing tags to feign */
     uint32_t lost_in;  /* XML: a tag was damaged where so many elements were open; 0: none */
     bool tag_end_due;  /* XML: a `>` to feign */
@@ -203,6 +204,10 @@ void parser_unterminated(struct parser *p, uint32_t mark, const char *message);
 void parser_stray(struct parser *p, struct span span, struct str text);
 /* A tag without its `>`, which belongs at `end`. */
 void xml_unclosed_tag(struct parser *p, uint32_t end);
+/* The same, unless the tag was told to be wrong already. */
+void xml_damaged_tag(struct parser *p, uint32_t end);
+/* `<\radius>` */
+void xml_backward_tag(struct parser *p, struct span span);
 void xml_nameless_tag(struct parser *p, struct span span);
 void xml_declaration(struct parser *p, struct span span);
 void xml_stray_less(struct parser *p, struct span span);
