@@ -152,14 +152,13 @@ void parser_advise(const struct parser *p, struct diag_entry *e, struct span spa
     if (p->ast->xml)
         return;
     struct str found = srcmap_text(p->diag->sources, span);
-    bool colon = false, name = false, comma = false, brace = false, closing = false, equals = false;
+    bool colon = false, name = false, comma = false, brace = false, closing = false;
     for (size_t i = 0; i < n; i++) {
         colon |= strcmp(expected[i], "':'") == 0;
         name |= strcmp(expected[i], "name") == 0;
         comma |= strcmp(expected[i], "','") == 0;
         brace |= strcmp(expected[i], "'{'") == 0;
         closing |= strcmp(expected[i], "')'") == 0 || strcmp(expected[i], "']'") == 0;
-        equals |= strcmp(expected[i], "'='") == 0;
     }
     bool later = parser_on_later_line(p, span);
     bool item = begins_item(found) && !later && !is_keyword(found) && !names_member(p, span);
@@ -182,12 +181,12 @@ void parser_advise(const struct parser *p, struct diag_entry *e, struct span spa
         diag_note(e, "commas stand between the items of lists, vectors and calls");
     else if (closing && !item)
         label_open_bracket(p, e, span);
-    else if (equals && str_is(first_word(p, span), "fn"))
+    else if (!later && str_is(first_word(p, span), "fn"))
         diag_note(e, "a function is written 'fn name(...) = value'");
-    else if (brace && str_is(first_word(p, span), "define"))
+    else if (!later && str_is(first_word(p, span), "define"))
         diag_note(e, "a template is written 'define name(...) { ... }'");
     else if (str_is(found, "if") && !later)
         diag_note(e, "a choice between values is written 'condition ? one : other'");
-    else if (name && is_keyword(found) && !later)
+    else if (name && !brace && is_keyword(found) && !later)
         diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
 }

@@ -8,12 +8,15 @@
 #include "schema/schema.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Returned for a token that is passed over. */
 enum { SKIPPED = XML_SKIPPED };
 
 static void open_tag(struct parser *p, struct str name, struct span span)
 {
+    if (p->open.n)
+        p->open.at[p->open.n - 1].holds_elements = true;
     vec_push(&p->open, (struct open_element){.name = name, .span = span});
     if (p->open.n > NESTING_LIMIT)
         parser_stop(p, DIAG_TOO_DEEP, span,
@@ -200,10 +203,6 @@ static void report_wrong_name(struct parser *p, struct span span, struct str clo
 
 static void report_unopened(struct parser *p, struct span span, struct str closing)
 {
-    if (str_equal(closing, p->unclosed)) { /* it comes too late */
-        p->unclosed = (struct str){0};
-        return;
-    }
     struct span bare = find_bare_opening(p, span, closing);
     if (!span_known(bare)) {
         diag_report(p->diag, DIAG_XML_CLOSING_TAG, span, "'</%.*s>' closes nothing",
@@ -303,6 +302,10 @@ static int open_element(struct parser *p, struct str name, struct span span)
  * name, unless that one's own closing tag is still to come. */
 static int close_unknown(struct parser *p, struct str name, struct span span)
 {
+    if (str_equal(name, p->unclosed)) { /* it comes too late */
+        p->unclosed = (struct str){0};
+        return SKIPPED;
+    }
     bool stray = str_equal(next_closing(p), innermost(p)->name) ||
                  span_known(find_bare_opening(p, span, name));
     if (!follows_from_loss(p)) {
@@ -352,11 +355,13 @@ static int end_of_text(struct parser *p, struct span span)
     return TOKEN_XML_CLOSE;
 }
 
-/* Remembers where the first text of an element ends. */
+/* Remembers where the first text of an element ends, or what may be its damaged closing tag. */
 static void note_text(struct parser *p, struct span span, struct str text)
 {
     struct open_element *top = top_of(p);
-    if (top && !top->text_end && str_trim(text).n)
+    if (!top || top->text_end || !str_trim(text).n)
+        return;
+    if (!top->holds_elements || memmem(text.at, text.n, top->name.at, top->name.n))
         top->text_end = span_of_trimmed(span, text).end;
 }
 

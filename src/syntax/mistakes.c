@@ -233,7 +233,8 @@ void xml_declaration(struct parser *p, struct span span)
     xml_lose_tag(p);
     struct diag_entry *e =
         diag_report(p->diag, DIAG_SYNTAX, span, "a declaration cannot stand here");
-    diag_note(e, "comments stand between '<!--' and '-->'");
+    if (n == 2)
+        diag_note(e, "comments stand between '<!--' and '-->'");
 }
 
 void xml_stray_less(struct parser *p, struct span span)

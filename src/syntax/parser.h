@@ -20,7 +20,8 @@ struct xml_content {
 struct open_element {
     struct str name;
     struct span span;  /* `<` and the name */
-    uint32_t text_end; /* of its first text; 0: none came yet */
+    uint32_t text_end; /* of its own text; 0: none came yet */
+    bool holds_elements;
 };
 
 /* The last two native tokens. */

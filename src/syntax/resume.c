@@ -38,13 +38,20 @@ static bool is_letter(char c)
     return (c | 32) >= 'a' && (c | 32) <= 'z';
 }
 
+/* `light: point {` at the very left. */
+static bool is_header(const struct parser *p, struct span span, const char *next)
+{
+    uint32_t at = span.begin - p->source->base;
+    return (at == 0 || p->source->text[at - 1] == '\n') && next[strcspn(next, "{\n")] == '{';
+}
+
 /* A name goes on as a member of a block; or it begins a line, and nothing that is still open may
  * hold it. */
 static bool name_resumes(const struct parser *p, struct span span, bool inside)
 {
     const char *next = text_behind(p, span);
     if (*next == ':')
-        return in_block(p);
+        return in_block(p) || is_header(p, span, next);
     return begins_line(p, span) && (!inside || *next == '{' || is_letter(*next));
 }
 
@@ -62,6 +69,9 @@ static bool resumes(const struct parser *p, int token, struct span span)
         return p->unmatched != span.begin;
     case TOKEN_SEMICOLON:
         return !inside;
+    case TOKEN_COLOUR: /* `#define` */
+    case TOKEN_STRING: /* `"sphere": {` */
+        return p->depth == 0 && begins_line(p, span);
     case TOKEN_NAME:
         return name_resumes(p, span, inside);
     case TOKEN_MATERIAL:

@@ -103,6 +103,7 @@ void parser_far_unit(struct parser *p, struct span span, struct str number)
     struct str unit = srcmap_text(p->diag->sources, (struct span){span.end - 3, span.end});
     struct diag_entry *e =
         diag_report(p->diag, DIAG_SYNTAX, span, "a unit stands right behind its number");
+    number = str_trim(number);
     diag_fix(e, span, DIAG_FIX_SAFE, "%.*s%.*s", STR_ARG(number), STR_ARG(unit));
 }
 
