@@ -370,6 +370,53 @@ static double off_line(const struct ray *ray, struct vec3 p)
     return (double)wide_sqrt(wide_dot(c, c) / wide_dot(d, d));
 }
 
+static struct wide3 wide_image(const struct affine *map, struct vec3 p)
+{
+    wide out[3];
+    for (int i = 0; i < 3; i++)
+        out[i] = (wide)map->m[i][0] * p.x + (wide)map->m[i][1] * p.y + (wide)map->m[i][2] * p.z +
+                 map->m[i][3];
+    return (struct wide3){out[0], out[1], out[2]};
+}
+
+/* The distance of a hit on an instance from the plane of the exact image of its triangle. */
+static double off_image(const struct geometry *g, const struct hit *hit, struct vec3 p)
+{
+    struct spot spot = geometry_spot(g, hit);
+    const struct triangle *t = &spot.geometry->triangles.at[spot.prim];
+    struct wide3 v[3];
+    for (int k = 0; k < 3; k++)
+        v[k] = wide_image(&spot.instance->to_world, spot.geometry->vertices.at[t->vertex[k]]);
+    struct wide3 n = wide_cross(wide_sub(v[1], v[0]), wide_sub(v[2], v[0]));
+    wide off = wide_dot(n, wide_sub(widen(p), v[0]));
+    return (double)(wide_abs(off) / wide_sqrt(wide_dot(n, n)));
+}
+
+/* Against baked geometry: what rounding errors grow by on the way there and back is known. */
+static void try_instances(struct dice *d, uint64_t cases, struct tally *tally)
+{
+    while (tally->cases < cases) {
+        struct geometry g = {0};
+        struct hit hit;
+        struct vec3 normal;
+        double size = magnitude(d, 1e-8, 1e8), uneven = magnitude(d, 1, 1000);
+        struct affine map = random_map(d, size, uneven, magnitude(d, 1, 1000));
+        uint32_t number = geometry_add_prototype(&g);
+        add_box(&g.prototypes.at[number]->shapes, vec3_all(0), 1);
+        tally->wrong += !geometry_add_instance(&g, 0, number, PRIM_NONE, &map);
+        struct vec3 middle = affine_point(&map, vec3_all(0));
+        struct vec3 from = vec3_mad(middle, size * magnitude(d, 3, 1e6), random_direction(d));
+        struct ray ray = ray_between(from, affine_point(&map, random_vector(d, 0.9)));
+        if (shoot(&g, &ray, &hit)) {
+            struct vec3 p = geometry_hit_point(&g, &ray, &hit, &normal);
+            double length = vec3_largest(p) + size;
+            tally_measure(tally, off_image(&g, &hit, p) / (EPS * g.worst_growth * length));
+            tally->cases++;
+        }
+        geometry_free(&g);
+    }
+}
+
 /* Things of size 1, seen from no farther than 100 sizes, moved far away as a whole. */
 static void try_translations(struct dice *d, uint64_t cases, struct tally *tally)
 {
@@ -392,6 +439,7 @@ static void try_translations(struct dice *d, uint64_t cases, struct tally *tally
 #define try_triangle_edges NULL
 #define try_triangle_planes NULL
 #define try_hit_points NULL
+#define try_instances NULL
 #define try_translations NULL
 #endif
 
@@ -404,6 +452,8 @@ const struct row rows_exact[] = {
      try_triangle_edges, true},
     {"triangle: off its plane", "eps (L + sliver)", 8, 50000, 10000000, try_triangle_planes, true},
     {"hit points: off the surface", "eps coordinates", 8, 50000, 10000000, try_hit_points, true},
+    {"instances: off the image of the mesh", "eps coordinates growth", 4, 20000, 10000000,
+     try_instances, true},
     {"moved by 2^20 .. 2^30: off surface and ray", "eps translation", 8, 50000, 10000000,
      try_translations, true},
     {0},
