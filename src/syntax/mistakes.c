@@ -112,7 +112,7 @@ static bool is_left_over(const struct parser *p, struct span span, bool vague)
     struct str between = srcmap_text(p->diag->sources, (struct span){p->astray, span.begin});
     if (!between.n || !memchr(between.at, '\n', between.n))
         return vague || p->unsure || p->since <= FEW;
-    return str_is(srcmap_text(p->diag->sources, span), "}") &&
+    return vague && str_is(srcmap_text(p->diag->sources, span), "}") &&
            indentation(p, span.begin) == indentation(p, p->astray);
 }
 
