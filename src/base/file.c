@@ -99,6 +99,36 @@ char *file_other_case(const char *path)
     return found;
 }
 
+char *file_meant(const char *path, size_t from)
+{
+    size_t n = strlen(path);
+    char *meant = join(path, n, "");
+    for (size_t i = from; i < n; i++)
+        if (meant[i] == '\\')
+            meant[i] = '/';
+    for (size_t i = from; i < n; i++) {
+        i += strcspn(meant + i, "/");
+        char end = meant[i], *other = NULL;
+        meant[i] = 0; /* the path as far as this folder, or all of it */
+        if (i > 0 && access(meant, F_OK) != 0) {
+            other = file_other_case(meant);
+            if (!other || strlen(other) != i) {
+                free(other);
+                free(meant);
+                return NULL;
+            }
+            memcpy(meant, other, i);
+            free(other);
+        }
+        meant[i] = end;
+    }
+    if (strcmp(meant, path) == 0) {
+        free(meant);
+        return NULL;
+    }
+    return meant;
+}
+
 static const char *write_all(int fd, const char *p, size_t n)
 {
     while (n) {

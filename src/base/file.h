@@ -17,9 +17,14 @@ const char *file_read(const char *path, char **data, size_t *n);
 /* True when path names a regular file that can be read; *reason says why not. */
 bool file_readable(const char *path, const char **reason);
 
-/* The name of another file in the folder of `path` that differs from it only in the case of letters,
- * with the folder as spelt in `path`; NULL when there is none.  Caller frees. */
+/* The name of another file in the folder of `path` that differs from it only in the case of
+ * letters, with the folder as spelt in `path`; NULL when there is none.  Caller frees. */
 char *file_other_case(const char *path);
+
+/* The path of an existing file that differs from `path`, behind its first `from` bytes, only in the
+ * case of letters and in `\\` for `/`; NULL when there is none.  As long as `path`; caller frees.
+ */
+char *file_meant(const char *path, size_t from);
 
 /* Writes n bytes so that path holds either its old content or all of the new: a temporary file
  * beside it is renamed.  A path that exists and is no regular file (a device, a pipe), and "-" for
@@ -36,8 +41,8 @@ char *file_resolve(const char *beside, const char *name, size_t name_length);
 char *file_relative(const char *beside, const char *path);
 
 /* The relative `name` as spelt in a file at `from`, for one at `to`: from the folder of one to that
- * of the other, then the name.  NULL when it stays the same: the name is absolute, or the folders are
- * one (or cannot be told).  Caller frees. */
+ * of the other, then the name.  NULL when it stays the same: the name is absolute, or the folders
+ * are one (or cannot be told).  Caller frees. */
 char *file_relocate(const char *from, const char *to, const char *name, size_t name_length);
 
 /* True when the two paths lie in one folder, as far as can be told. */

@@ -211,7 +211,7 @@ static void add_counts(struct buffer *out, const size_t of[DIAG_ERROR + 1])
 /* What of it could be mended, or was. */
 static void add_fixes(struct buffer *out, const struct tally *t, const struct options *o)
 {
-    if (o->fix && o->difference)
+    if (o->fix && o->difference && t->fixed)
         buffer_printf(out, "%s%zu would be fixed", out->n ? "; " : "", t->fixed);
     else if (o->fix == FIX_NOTHING && t->safe)
         buffer_printf(out, "; %zu can be fixed with --fix", t->safe);

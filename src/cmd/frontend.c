@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/thread.h"
 #include "eval/eval.h"
+#include "lint/explain.h"
 #include "print/printer.h"
 #include "syntax/syntax.h"
 #include "validate/validate.h"
@@ -179,8 +180,11 @@ int frontend_report(struct frontend *f, const struct options *o, enum diag_level
 {
     bool text = o->format == DIAG_FORMAT_TEXT;
     const char *no_color = getenv("NO_COLOR");
+    static const struct diag_book book = {explain_why, explain_code};
     struct diag_print_options print = {
         .format = o->format,
+        .book = &book,
+        .printed = o->printed,
         .colour = text && isatty(STDERR_FILENO) && !(no_color && *no_color),
         .least = least,
         .begun = o->current > 0,

@@ -64,7 +64,7 @@ static int print_help(const struct command *c)
         for (int i = 0; i < COMMANDS; i++)
             printf("  %-28s %s\n", commands[i].usage, commands[i].summary);
         puts("\n'wrt SCENE' is short for 'wrt render SCENE'.  Options may stand "
-             "anywhere.\n\noptions:");
+             "anywhere.\n'wrt help COMMAND' says which options it has.\n\noptions:");
     }
     options_help(c ? c->bit : FOR_ALL, stdout);
     puts("\nsee wrt(1)");
@@ -74,7 +74,9 @@ static int print_help(const struct command *c)
 static int run_command(const struct command *c, int argc, char **argv)
 {
     struct options o;
+    size_t printed = 0;
     enum options_result result = options_read(argc, argv, c->bit, &o);
+    o.printed = &printed;
     int status = result == OPTIONS_HELP      ? print_help(c)
                  : result == OPTIONS_VERSION ? print_version()
                  : result == OPTIONS_WRONG   ? EXIT_USAGE
@@ -105,7 +107,7 @@ static bool looks_like_command(const char *word, size_t operands)
 {
     if (strpbrk(word, "./") || access(word, F_OK) == 0)
         return false;
-    return operands > 1 || strcmp(word, "help") == 0 || nearest_command(word).n;
+    return operands > 1 || nearest_command(word).n;
 }
 
 static int unknown_command(const char *word)
@@ -142,10 +144,19 @@ static int close_output(int status)
     return status ? status : DIAG_EXIT_RESOURCE;
 }
 
+/* `wrt help [COMMAND]`; another word gives no help. */
+static int help_on(const char *word)
+{
+    const struct command *c = word ? find_command(word) : NULL;
+    return word && !c ? unknown_command(word) : print_help(c);
+}
+
 int main(int argc, char **argv)
 {
     int first = options_first_operand(argc, argv);
     const struct command *c = first < argc ? find_command(argv[first]) : NULL;
+    if (first < argc && strcmp(argv[first], "help") == 0 && access("help", F_OK) != 0)
+        return close_output(help_on(first + 1 < argc ? argv[first + 1] : NULL));
     if (!c)
         return close_output(run_without_command(argc, argv));
     for (int i = first; i + 1 < argc; i++) /* the command's name is no operand */

@@ -211,38 +211,65 @@ static bool take_fix(const struct opt_row *row, const char *text, struct options
     return !text || take_word(row, text, words) >= 0;
 }
 
-/* Sets what becomes of a rule, or of the rules of a group. */
-static bool set_rule(const struct opt_row *row, const char *name, enum diag_setting setting,
-                     struct options *out)
+static bool unknown_rule(const struct opt_row *row, struct str name)
 {
     struct diag_selection which;
-    if (diag_select(str_of(name), &which)) {
-        diag_policy_set(&out->policy, &which, setting);
-        return true;
-    }
-    struct str meant = diag_nearest_name(str_of(name));
-    if (meant.n)
-        usage_error("--%s: no rule is called '%s'; did you mean '%.*s'?", row->name, name,
-                    STR_ARG(meant));
+    struct str meant = diag_nearest_name(name), rest = {name.at + 3, name.n - 3};
+    if (str_begins(name, "no-") && diag_select(rest, &which))
+        usage_error("--%s: no rule is called '%.*s'; use --no-warn %.*s", row->name, STR_ARG(name),
+                    STR_ARG(rest));
+    else if (meant.n)
+        usage_error("--%s: no rule is called '%.*s'; did you mean '%.*s'?", row->name,
+                    STR_ARG(name), STR_ARG(meant));
     else
-        usage_error("--%s: no rule is called '%s'; 'wrt lint --list' names them", row->name, name);
+        usage_error("--%s: no rule is called '%.*s'; 'wrt lint --list' names them", row->name,
+                    STR_ARG(name));
     return false;
 }
 
-/* NAME, error, or error=NAME */
+static bool is_error(const struct diag_selection *which)
+{
+    for (int i = 0; i < DIAG_CODES; i++)
+        if (which->has[i] && diag_rules[i].level != DIAG_ERROR)
+            return false;
+    return true;
+}
+
+/* Sets what becomes of rules: names of rules and groups with commas between. */
+static bool set_rules(const struct opt_row *row, const char *names, enum diag_setting setting,
+                      struct options *out)
+{
+    for (const char *at = names;; at++) {
+        struct str name = {at, strcspn(at, ",")};
+        struct diag_selection which;
+        if (!diag_select(name, &which))
+            return unknown_rule(row, name);
+        if (is_error(&which)) {
+            usage_error("--%s: '%.*s' is an error: errors are always told", row->name,
+                        STR_ARG(name));
+            return false;
+        }
+        diag_policy_set(&out->policy, &which, setting);
+        at += name.n;
+        if (!*at)
+            return true;
+    }
+}
+
+/* NAME,..., error, or error=NAME,... */
 static bool take_warn(const struct opt_row *row, const char *text, struct options *out)
 {
     static const char error[] = "error=";
     if (strcmp(text, "error") == 0)
         return out->policy.warnings_are_errors = true;
     if (strncmp(text, error, strlen(error)) == 0)
-        return set_rule(row, text + strlen(error), DIAG_AS_ERROR, out);
-    return set_rule(row, text, DIAG_ON, out);
+        return set_rules(row, text + strlen(error), DIAG_AS_ERROR, out);
+    return set_rules(row, text, DIAG_ON, out);
 }
 
 static bool take_no_warn(const struct opt_row *row, const char *text, struct options *out)
 {
-    return set_rule(row, text, DIAG_OFF, out);
+    return set_rules(row, text, DIAG_OFF, out);
 }
 
 static bool take_accel(const struct opt_row *row, const char *text, struct options *out)

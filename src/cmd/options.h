@@ -54,6 +54,7 @@ struct options {
     enum isa isa;
     enum stats_format stats;
     enum diag_format format;
+    size_t *printed;           /* results of a SARIF log so far */
     struct diag_policy policy; /* of warnings */
     enum fix_mode fix;
     bool list;

@@ -10,6 +10,7 @@
 #define WRT_DIAG_DIAG_H
 
 #include "base/arena.h"
+#include "base/buffer.h"
 #include "base/map.h"
 #include "base/srcmap.h"
 #include "base/vec.h"
@@ -217,6 +218,11 @@ uint64_t diag_frame_sites(const struct diag_frame *innermost);
 /* Tells the frames in words (likewise). */
 void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost);
 
+/* A label for something else that is concerned, and one for each of the nearest frames it was made
+ * in. */
+void diag_label_made(struct diag_entry *e, struct span span, const struct diag_frame *innermost,
+                     const char *text);
+
 /* Adds the note "did you mean 'x'?" and a fix-it when `meant` is not empty. */
 void diag_did_you_mean(struct diag_entry *e, struct span span, struct str meant);
 
@@ -225,8 +231,16 @@ void diag_sort(struct diag *d);
 
 enum diag_format { DIAG_FORMAT_TEXT, DIAG_FORMAT_JSON, DIAG_FORMAT_SARIF };
 
+/* What is printed of rules themselves: why they matter, and all that is known. */
+struct diag_book {
+    const char *(*why)(enum diag_code code); /* NULL: nothing */
+    void (*explain)(enum diag_code code, struct buffer *out);
+};
+
 struct diag_print_options {
     enum diag_format format;
+    const struct diag_book *book; /* of SARIF; may be NULL */
+    size_t *printed;              /* SARIF: results of this log so far */
     bool colour;
     enum diag_level least; /* lower levels are not printed */
     bool begun, goes_on;   /* SARIF: one log for what is printed before and after, too */

@@ -65,3 +65,13 @@ void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost)
         else if (!hidden || i < INNERMOST || i >= INNERMOST + hidden)
             add(e, f->at, words_of(e->owner, f));
 }
+
+void diag_label_made(struct diag_entry *e, struct span span, const struct diag_frame *innermost,
+                     const char *text)
+{
+    enum { MOST = 4 };
+    int n = 0;
+    diag_label(e, span, "%s", text);
+    for (const struct diag_frame *f = innermost; f && n < MOST; f = f->parent, n++)
+        diag_label(e, f->at, "that one is made %s here", words_of(e->owner, f));
+}

@@ -10,10 +10,12 @@
 static bool is_code(const struct diag_rule *rule, struct str name)
 {
     size_t n = strlen(rule->code);
-    if (str_is(name, rule->code) || str_is(name, rule->slug))
+    if (str_is(name, rule->slug))
         return true;
-    return name.n > n && str_begins(name, rule->code) && name.at[n] == '-' &&
-           str_is((struct str){name.at + n + 1, name.n - n - 1}, rule->slug);
+    if (name.n < n || !str_equal_nocase((struct str){name.at, n}, str_of(rule->code)))
+        return false;
+    return name.n == n ||
+           (name.at[n] == '-' && str_is((struct str){name.at + n + 1, name.n - n - 1}, rule->slug));
 }
 
 static bool is_of(const struct diag_rule *rule, struct str name)

@@ -1,4 +1,5 @@
-/* Diagnostics as a SARIF 2.1.0 log (OASIS Standard, 2020): one run, its rules, its results. */
+/* Diagnostics as a SARIF 2.1.0 log (OASIS Standard, 2020): one run, its rules, the results of all
+ * files. */
 #include "config.h"
 
 #include "diag/print.h"
@@ -14,9 +15,12 @@ static json_t *message_of(const char *text)
     return json_pack("{s:o}", "text", j ? j : json_string("(not UTF-8)"));
 }
 
-/* File names become references: what a URI does not hold is percent-encoded. */
+/* File names become references: what a URI does not hold is percent-encoded.  What is no file has
+ * its name in angles. */
 static json_t *uri_of(const char *name)
 {
+    if (*name == '<')
+        return json_stringn(name + 1, strcspn(name + 1, " >"));
     static const char plain[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
     size_t n = strlen(name), at = 0;
@@ -102,6 +106,30 @@ static bool is_alternative(const struct diag_entry *e, size_t i)
     return false;
 }
 
+static void add_quoted(struct buffer *out, const char *before, struct str text)
+{
+    enum { MOST = 60 };
+    size_t n = text.n > MOST ? MOST : text.n;
+    while (n < text.n && n > 0 && (text.at[n] & 0xC0) == 0x80)
+        n--;
+    buffer_printf(out, "%s'%.*s%s'", before, (int)n, text.at, n < text.n ? "..." : "");
+}
+
+/* What is done, in words. */
+static json_t *description_of(const struct diag *d, const struct diag_fixit *f)
+{
+    struct buffer words = {0};
+    struct str gone = srcmap_text(d->sources, f->span), come = str_of(f->text);
+    if (gone.n)
+        add_quoted(&words, come.n ? "replace " : "remove ", str_trim(gone));
+    if (come.n)
+        add_quoted(&words, gone.n ? " by " : "insert ", str_trim(come));
+    buffer_printf(&words, "%s%c", f->kind == DIAG_FIX_SAFE ? "" : ", if that is what was meant", 0);
+    json_t *message = message_of(words.at);
+    buffer_free(&words);
+    return message;
+}
+
 /* A change of one text: the fix-it's own, and with the first all that is done together. */
 static json_t *fix_of(const struct diag *d, const struct diag_entry *e, size_t i)
 {
@@ -112,9 +140,9 @@ static json_t *fix_of(const struct diag *d, const struct diag_entry *e, size_t i
         if (k == i || (i == 0 && !is_alternative(e, k) &&
                        srcmap_source(d->sources, e->fixits.at[k].span.begin) == source))
             json_array_append_new(list, replacement_of(d, &e->fixits.at[k]));
-    return json_pack("{s:o, s:[{s:{s:o}, s:o}]}", "description",
-                     message_of(f->kind == DIAG_FIX_SAFE ? "safe" : "maybe"), "artifactChanges",
-                     "artifactLocation", "uri", uri_of(source->name), "replacements", list);
+    return json_pack("{s:o, s:[{s:{s:o}, s:o}]}", "description", description_of(d, f),
+                     "artifactChanges", "artifactLocation", "uri", uri_of(source->name),
+                     "replacements", list);
 }
 
 static json_t *fixes_of(const struct diag *d, const struct diag_entry *e)
@@ -145,33 +173,61 @@ static json_t *result_of(const struct diag *d, const struct diag_entry *e)
     return result;
 }
 
-static json_t *rules(void)
+static void add_explanation(json_t *rule, enum diag_code code, const struct diag_book *book)
+{
+    const char *why = book ? book->why(code) : NULL;
+    struct buffer text = {0};
+    if (!why)
+        return;
+    book->explain(code, &text);
+    buffer_add(&text, "", 1);
+    json_object_set_new(rule, "fullDescription", message_of(why));
+    json_object_set_new(rule, "help", message_of(text.at));
+    buffer_free(&text);
+}
+
+static json_t *rules(const struct diag_book *book)
 {
     json_t *list = json_array();
     for (int i = 0; i < DIAG_CODES; i++) {
         const struct diag_rule *r = &diag_rules[i];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:o, s:{s:s, s:b}}", "id", r->code, "name",
-                                        r->slug, "shortDescription", message_of(r->summary),
-                                        "defaultConfiguration", "level", diag_level_name(r->level),
-                                        "enabled", !diag_is_optional((enum diag_code)i)));
+        json_t *rule =
+            json_pack("{s:s, s:s, s:o, s:{s:s, s:b}}", "id", r->code, "name", r->slug,
+                      "shortDescription", message_of(r->summary), "defaultConfiguration", "level",
+                      diag_level_name(r->level), "enabled", !diag_is_optional((enum diag_code)i));
+        add_explanation(rule, (enum diag_code)i, book);
+        json_array_append_new(list, rule);
     }
     return list;
 }
 
+static void put(json_t *value, FILE *out)
+{
+    if (!value || json_dumpf(value, out, JSON_INDENT(1)) != 0)
+        fputs("{}", out);
+    json_decref(value);
+}
+
+/* The log and its run are opened with the first file and closed behind the last. */
 void diag_print_sarif(const struct diag *d, const struct diag_print_options *o, FILE *out)
 {
-    json_t *results = json_array();
-    for (size_t i = 0; i < d->entries.n; i++)
-        if (diag_is_shown(d->entries.at[i], o->least))
-            json_array_append_new(results, result_of(d, d->entries.at[i]));
-    json_t *run = json_pack("{s:{s:{s:s, s:s, s:o}}, s:s, s:o}", "tool", "driver", "name", "wrt",
-                            "version", PACKAGE_VERSION, "rules", rules(), "columnKind",
-                            "unicodeCodePoints", "results", results);
-    if (!o->begun)
-        fputs("{\"$schema\": \"" SCHEMA "\",\n\"version\": \"2.1.0\",\n\"runs\": [\n", out);
-    if (!run || json_dumpf(run, out, JSON_INDENT(1)) != 0)
-        fputs("{}", out);
-    fputs(o->goes_on ? ",\n" : "\n]}\n", out);
-    json_decref(run);
+    size_t printed = o->printed ? *o->printed : 0;
+    if (!o->begun) {
+        fputs("{\"$schema\": \"" SCHEMA "\",\n\"version\": \"2.1.0\",\n\"runs\": [\n{\"tool\": ",
+              out);
+        put(json_pack("{s:{s:s, s:s, s:o}}", "driver", "name", "wrt", "version", PACKAGE_VERSION,
+                      "rules", rules(o->book)),
+            out);
+        fputs(",\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n", out);
+    }
+    for (size_t i = 0; i < d->entries.n; i++) {
+        if (!diag_is_shown(d->entries.at[i], o->least))
+            continue;
+        fputs(printed++ ? ",\n" : "", out);
+        put(result_of(d, d->entries.at[i]), out);
+    }
+    if (!o->goes_on)
+        fputs("\n]}]}\n", out);
+    if (o->printed)
+        *o->printed = printed;
 }

@@ -69,6 +69,20 @@ static struct module *find_module(const struct eval *e, const char *path)
 
 /* ---- which file ---- */
 
+/* A name that another machine would have found. */
+static void explain_missing(struct diag_entry *entry, const struct ast_node *string,
+                            const char *path)
+{
+    size_t n = strlen(path), from = n - (string->text.n < n ? string->text.n : n);
+    bool ends = string->text.n > 0 && str_is(string->text, path + from);
+    char *meant = ends ? file_meant(path, from) : NULL;
+    if (!meant)
+        return;
+    diag_note(entry, "there is '%s'", meant);
+    diag_fix(entry, string->span, DIAG_FIX_MAYBE, "\"%s\"", meant + from);
+    free(meant);
+}
+
 /* The first that can be read: beside the file that spells the name, then in the folders of -I.
  * The caller frees; NULL after reporting. */
 static char *find_file(struct eval *e, const struct ast_node *string)
@@ -94,6 +108,7 @@ static char *find_file(struct eval *e, const struct ast_node *string)
                                            "could not read '%s': %s", path, reason);
     if (e->options->folder_count)
         diag_note(entry, "nor is it in a folder of -I");
+    explain_missing(entry, string, path);
     e->out->incomplete = e->names_lost = true;
     free(path);
     return NULL;

@@ -42,12 +42,15 @@ struct span lint_extent(const struct desc_object *o, const struct desc_prop *p);
 /* The property as the object's format spells it. */
 struct str lint_name(const struct desc_object *o, enum schema_prop_id id);
 
+/* Whether two materials without texture are the same in all they say. */
+bool lint_same_material(const struct desc_object *a, const struct desc_object *b);
+
 /* True in the file itself, not in one that it includes. */
 bool lint_is_here(const struct lint *l, struct span span);
 
-/* Proposes that the text goes away, and with it its line when nothing else stands there, the comment
- * behind it on that line, and comments before it that allow something in it.  Other comments are
- * left alone; with a comment that is lost it is no safe change. */
+/* Proposes that the text goes away, and with it its line when nothing else stands there, the
+ * comment behind it on that line, and comments before it that allow something in it.  Other
+ * comments are left alone; with a comment that is lost it is no safe change. */
 void lint_remove(const struct lint *l, struct diag_entry *e, struct span span,
                  enum diag_fix_kind kind);
 

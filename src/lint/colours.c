@@ -45,8 +45,9 @@ void lint_intensities(const struct lint *l)
 
 /* ---- energy ---- */
 
-/* What a material sends on of the light that reaches it, with and without highlights.  A metal
- * tints what it mirrors; classic by one number for all three channels. */
+/* What a material sends on of the light that reaches it.  A metal tints what it mirrors; classic by
+ * one number for all three channels.  A highlight is as bright as a matt surface within a lobe
+ * only: the integral of cos^n over the hemisphere, by that of cos, is 2 / (n + 1). */
 struct shares {
     struct vec3 diffuse, specular, reflection, refraction;
 };
@@ -60,6 +61,8 @@ static struct shares shares_of(const struct desc_object *o)
 {
     struct shares s = {colour_of(o, PROP_DIFFUSE), colour_of(o, PROP_SPECULAR),
                        colour_of(o, PROP_REFLECTION), colour_of(o, PROP_REFRACTION)};
+    if (desc_get(o, PROP_EXPONENT))
+        s.specular = vec3_scale(s.specular, fmin(1, 2 / (desc_number(o, PROP_EXPONENT) + 1)));
     if (o->kind != KIND_METAL)
         return s;
     s.specular = vec3_mul(s.specular, s.diffuse);
@@ -95,8 +98,8 @@ static void check_energy(const struct lint *l, const struct desc_object *o)
                     schema_kind_name(o->kind, o->xml), passed, refracts ? " + refraction" : "");
     else if (exceeds(shining, LINT(MOST_SHINING)))
         diag_report(l->diag, DIAG_ENERGY_ABOVE_ONE, o->span,
-                    "this %s gives back up to %.4g times the light it gets: diffuse + specular + "
-                    "reflection",
+                    "this %s gives back up to %.4g times the light it gets: diffuse + reflection + "
+                    "what the highlight gathers",
                     schema_kind_name(o->kind, o->xml), shining);
 }
 

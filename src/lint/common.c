@@ -53,6 +53,21 @@ struct str lint_name(const struct desc_object *o, enum schema_prop_id id)
     return schema_prop_name(id, o->xml);
 }
 
+bool lint_same_material(const struct desc_object *a, const struct desc_object *b)
+{
+    if (a == b)
+        return true;
+    if (a->kind != b->kind)
+        return false;
+    for (int i = 0; i < SCHEMA_PROPS; i++) {
+        enum schema_prop_id id = (enum schema_prop_id)i;
+        if (schema_has(a->kind, id) && schema_props[id].type != TYPE_TEXTURE &&
+            !vec3_is_zero(vec3_sub(desc_vector(a, id), desc_vector(b, id))))
+            return false;
+    }
+    return true;
+}
+
 bool lint_is_here(const struct lint *l, struct span span)
 {
     const struct source *s = l->ast->source;

@@ -66,6 +66,11 @@ static void add_thresholds(struct buffer *out, enum diag_code code)
     }
 }
 
+const char *explain_why(enum diag_code code)
+{
+    return explanations[code].why;
+}
+
 void explain_code(enum diag_code code, struct buffer *out)
 {
     const struct diag_rule *rule = &diag_rules[code];

@@ -5,6 +5,9 @@
 #include "base/buffer.h"
 #include "diag/diag.h"
 
+/* Why it matters; NULL when nothing is said of it. */
+const char *explain_why(enum diag_code code);
+
 /* What the diagnostic means: why it matters, an example, its thresholds. */
 void explain_code(enum diag_code code, struct buffer *out);
 

@@ -86,7 +86,7 @@ static void look_at_light(const struct lint *l, const struct light *light,
                           const struct desc_object *o)
 {
     uint32_t around[SURVEY_AROUND];
-    const struct vec3 *place = survey_light_place(light, 0);
+    const struct vec3 *place = vec3_is_zero(light->intensity) ? NULL : survey_light_place(light, 0);
     unsigned n = place ? survey_around(l->survey, *place, around) : 0;
     n = without_rooms(l, without_partial(l, light, n, around), around);
     if (n == 0)
@@ -135,7 +135,8 @@ void lint_light_on_surface(const struct lint *l)
     for (size_t i = 0; s->surfaces.n && i < s->lights.n; i++) {
         const struct desc_object *o = l->desc->lights.at[i];
         uint32_t under = surface_under(l, &s->lights.at[i], size * LINT(LIGHT_DISTANCE));
-        if (under == SURFACE_NONE || !survey_is_opaque(l->survey, under))
+        if (under == SURFACE_NONE || !survey_is_opaque(l->survey, under) ||
+            vec3_is_zero(s->lights.at[i].intensity)) /* told already */
             continue;
         l->diag->frame = o->frame;
         const struct desc_object *surface = survey_object(l->survey, under);

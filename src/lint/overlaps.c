@@ -215,6 +215,25 @@ static bool are_twins(const struct overlaps *o, uint32_t a, uint32_t b)
     return true;
 }
 
+static bool is_plain(const struct desc_object *o)
+{
+    const struct desc_object *m = desc_get(o, PROP_MATERIAL)->object;
+    return !desc_get(m, PROP_TEXTURE) && !desc_get(m, PROP_REFRACTION) &&
+           !desc_get(o, PROP_NORMAL_MAP);
+}
+
+/* Of one colour all over, whichever of the two shows.  Classic does not turn normals to the eye. */
+static bool look_alike(const struct overlaps *o, uint32_t a, uint32_t b)
+{
+    const struct flat *p = &o->flats.at[a], *q = &o->flats.at[b];
+    const struct desc_object *x = o->l->desc->surfaces.at[p->surface];
+    const struct desc_object *y = o->l->desc->surfaces.at[q->surface];
+    bool one_side = vec3_dot(flat_normal(p->v), flat_normal(q->v)) > 0;
+    return (one_side || x->model == SCHEMA_MODERN) && is_plain(x) && is_plain(y) &&
+           lint_same_material(desc_get(x, PROP_MATERIAL)->object,
+                              desc_get(y, PROP_MATERIAL)->object);
+}
+
 /* ---- looking for an earlier one ---- */
 
 static bool boxes_meet(const struct node *a, const struct node *b)
@@ -227,7 +246,7 @@ static bool overlap(struct overlaps *o, uint32_t a, uint32_t b)
 {
     o->looks++;
     return share_plane(&o->flats.at[a], &o->flats.at[b]) && cover_each_other(o, a, b) &&
-           !are_twins(o, o->flats.at[a].surface, o->flats.at[b].surface);
+           !are_twins(o, o->flats.at[a].surface, o->flats.at[b].surface) && !look_alike(o, a, b);
 }
 
 /* The first surface below `best` that the triangle overlaps; else `best`. */
@@ -262,7 +281,8 @@ static void report(struct overlaps *o, uint32_t surface, uint32_t earlier)
                     "this %s lies in the plane of another and covers part of it: which one shows "
                     "there is chance",
                     schema_kind_name(s->kind, s->xml));
-    diag_label(e, o->l->desc->surfaces.at[earlier]->span, "the other is here");
+    const struct desc_object *other = o->l->desc->surfaces.at[earlier];
+    diag_label_made(e, other->span, other->frame, "the other is here");
     o->l->diag->frame = NULL;
 }
 

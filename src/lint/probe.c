@@ -44,18 +44,14 @@ static bool is_anything_in_view(const struct lint *l)
 }
 
 /* Small things are missed by one sample a pixel: what is black by that is looked at more closely.
- */
+ * A view of nothing is told of already (unseen.c). */
 void lint_black_picture(const struct lint *l)
 {
     const struct desc *d = l->desc;
-    if (!d->surfaces.n || !d->lights.n || !is_black(l, 1) || !is_black(l, PROBE))
+    if (!d->lights.n || !is_anything_in_view(l) || !is_black(l, 1) || !is_black(l, PROBE))
         return;
     struct diag_entry *e =
         diag_report(l->diag, DIAG_BLACK_PICTURE, d->camera->span, "the picture is black");
-    if (!is_anything_in_view(l))
-        diag_note(e, "no surface is in the view: look at where the camera points");
-    else
-        diag_note(e,
-                  "what is in the view gives no light: look at where the lights are, what stands "
-                  "between, and the materials");
+    diag_note(e, "what is in the view gives no light: look at where the lights are, what stands "
+                 "between, and the materials");
 }

@@ -2,6 +2,7 @@
 #include "config.h"
 
 #include "lint/checks.h"
+#include "lint/survey.h"
 
 #include <math.h>
 
@@ -22,21 +23,41 @@ void lint_exponents(const struct lint *l)
         lint_each_material(l, check_exponent);
 }
 
-static void check_emissive(const struct lint *l, const struct desc_object *o)
+/* Whether a light is in the surface or close to it, so that the two are one lamp. */
+static bool is_lamp(const struct lint *l, struct box box)
 {
-    const struct desc_object *material = desc_get(o, PROP_MATERIAL)->object;
-    if (material->kind != KIND_EMISSIVE || vec3_is_zero(desc_vector(material, PROP_DIFFUSE)))
-        return;
-    struct diag_entry *e =
-        diag_report(l->diag, DIAG_EMISSIVE_IGNORED_LIGHT, o->span,
-                    "this %s shines, but lights nothing", schema_kind_name(o->kind, o->xml));
-    diag_label(e, material->span, "its material is emissive");
-    diag_note(e, "an area light in its place gives light");
+    double near = LINT(LAMP_REACH) * vec3_length(vec3_sub(box.hi, box.lo));
+    for (size_t i = 0; i < l->lowered->scene.lights.n; i++) {
+        const struct light *light = &l->lowered->scene.lights.at[i];
+        if (light->kind == LIGHT_SUN)
+            continue;
+        struct box lit = survey_light_box(light);
+        double gap = 0;
+        for (int axis = 0; axis < 3; axis++)
+            gap = fmax(gap, fmax(vec3_at(lit.lo, axis) - vec3_at(box.hi, axis),
+                                 vec3_at(box.lo, axis) - vec3_at(lit.hi, axis)));
+        if (gap <= near)
+            return true;
+    }
+    return false;
 }
 
 void lint_emissives(const struct lint *l)
 {
-    lint_each_surface(l, check_emissive);
+    for (uint32_t i = 0; i < l->lowered->scene.surfaces.n; i++) {
+        const struct desc_object *o = survey_object(l->survey, i);
+        const struct desc_object *material = desc_get(o, PROP_MATERIAL)->object;
+        if (material->kind != KIND_EMISSIVE || vec3_is_zero(desc_vector(material, PROP_DIFFUSE)) ||
+            is_lamp(l, survey_boxes(l->survey)[i]))
+            continue;
+        l->diag->frame = o->frame;
+        struct diag_entry *e =
+            diag_report(l->diag, DIAG_EMISSIVE_IGNORED_LIGHT, o->span,
+                        "this %s shines, but lights nothing", schema_kind_name(o->kind, o->xml));
+        diag_label(e, material->span, "its material is emissive");
+        diag_note(e, "a light in its place gives light");
+    }
+    l->diag->frame = NULL;
 }
 
 /* Behind the element with the file's name, on a line of its own when that has one. */

@@ -59,12 +59,17 @@ static void judge(const struct lint *l, const struct shown *t)
     if (!(texels > LINT(TEXELS_A_SAMPLE) * samples))
         return;
     l->diag->frame = t->object->frame;
+    struct span file = desc_get(t->object, PROP_FILE)->span;
     struct diag_entry *e =
-        diag_report(l->diag, DIAG_LARGE_TEXTURE, desc_get(t->object, PROP_FILE)->span,
-                    "the texture has %u x %u texels, and at most %.0f samples of the picture can "
-                    "show it",
-                    t->image->width, t->image->height, ceil(samples));
-    diag_note(e, "a smaller one is read faster and shows as much");
+        samples > 0 ? diag_report(l->diag, DIAG_LARGE_TEXTURE, file,
+                                  "the texture has %u x %u texels, and at most %.0f samples of the "
+                                  "picture can show it",
+                                  t->image->width, t->image->height, ceil(samples))
+                    : diag_report(l->diag, DIAG_LARGE_TEXTURE, file,
+                                  "the texture has %u x %u texels, and what has it is out of view",
+                                  t->image->width, t->image->height);
+    if (samples > 0)
+        diag_note(e, "a smaller one is read faster and shows as much");
     l->diag->frame = NULL;
 }
 

@@ -62,7 +62,9 @@ static double file_number(struct twins *t, const struct desc_object *o, enum sch
         return 0;
     const struct source *s = srcmap_source(t->l->sources, v->spelt);
     char *path = file_resolve(s ? s->name : "", v->string.at, v->string.n);
-    double number = number_of(t, &t->files, path, strlen(path));
+    struct file_id file;
+    double number = file_identify(path, &file) ? number_of(t, &t->files, &file, sizeof file)
+                                               : number_of(t, &t->files, path, strlen(path));
     free(path);
     return number;
 }
@@ -228,7 +230,7 @@ static void report_twin(struct twins *t, const struct desc_object *o,
         same ? "this %s is there twice"
              : "this %s is where another one is, of another material: which one shows is chance",
         kind);
-    diag_label(e, earlier->span, "the first is here");
+    diag_label_made(e, earlier->span, earlier->frame, "the first is here");
 }
 
 static void compare_run(struct twins *t, const struct ranked *run, size_t n)

@@ -145,13 +145,19 @@ void lint_unseen(const struct lint *l)
 {
     struct sight *s = mem_alloc(1, sizeof *s);
     struct map shown = {0};
-    if (survey_sight(l, s)) {
+    bool any = true;
+    if (survey_sight(l, s) && (any = s->seen.lo.x <= s->seen.hi.x)) {
         find_shown(l, s, &shown);
         for (uint32_t i = 0; i < l->lowered->scene.surfaces.n; i++) {
             unsigned sides = sides_of(l, s, i);
             if (sides && !map_get(&shown, place_of(survey_object(l->survey, i))))
                 report(l, i, sides);
         }
+    }
+    if (!any && l->lowered->scene.surfaces.n) {
+        struct diag_entry *e = diag_report(l->diag, DIAG_BLACK_PICTURE, l->desc->camera->span,
+                                           "no surface is in the view");
+        diag_note(e, "look at where the camera points");
     }
     map_free(&shown);
     free(s);

@@ -19,39 +19,37 @@ static const char *path_of(struct lowering *l, const struct desc_value *file)
     return kept;
 }
 
-/* Offers another spelling of the last bytes of the file's name. */
+/* Offers another spelling of the file's name. */
 static void offer(struct lowering *l, struct diag_entry *e, const struct desc_value *file,
-                  const char *wrong, const char *right)
+                  const char *right)
 {
     struct str text = srcmap_text(l->sources, file->span);
-    size_t n = strlen(wrong);
-    const char *at = memmem(text.at, text.n, wrong, n);
-    if (!at)
-        return;
-    uint32_t begin = file->span.begin + (uint32_t)(at - text.at);
-    diag_fix(e, (struct span){begin, begin + (uint32_t)n}, DIAG_FIX_MAYBE, "%s", right);
-}
-
-static const char *last_part(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    const char *at = memmem(text.at, text.n, file->string.at, file->string.n);
+    uint32_t begin = at ? file->span.begin + (uint32_t)(at - text.at) : 0;
+    if (at)
+        diag_fix(e, (struct span){begin, begin + (uint32_t)file->string.n}, DIAG_FIX_MAYBE, "%s",
+                 right);
+    else if (text.n && *text.at == '"')
+        diag_fix(e, file->span, DIAG_FIX_MAYBE, "\"%s\"", right);
 }
 
 /* What other machines would have made of the name. */
 static void explain_missing(struct lowering *l, struct diag_entry *e, const struct desc_value *file,
                             const char *path)
 {
-    char *other = file_other_case(path);
-    if (other) {
-        diag_note(e, "there is '%s': the names differ only in case", other);
-        offer(l, e, file, last_part(path), last_part(other));
-    } else if (memchr(file->string.at, '\\', file->string.n)) {
+    bool backslash = memchr(file->string.at, '\\', file->string.n);
+    size_t n = strlen(path), from = n - (file->string.n < n ? file->string.n : n);
+    char *meant = str_is(file->string, path + from) ? file_meant(path, from) : NULL;
+    if (backslash)
         diag_note(e, "'\\' is part of a name; '/' stands between folders");
+    if (meant) {
+        diag_note(e, backslash ? "there is '%s'" : "there is '%s': the names differ only in case",
+                  meant);
+        offer(l, e, file, meant + from);
     } else if (*file->string.at == '/') {
         diag_note(e, "an absolute path holds on the machine it was written on");
     }
-    free(other);
+    free(meant);
 }
 
 static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,
