@@ -8,7 +8,8 @@
 /* Rounding error of one operation, relative. */
 #define EPS 0x1p-53
 
-/* Random numbers of one part of a row, the same in every run. */
+/* Random numbers of one part of a row: the same in every run, though compilers that take arguments in
+ * another order use them for other things. */
 struct dice {
     uint64_t seed, count;
 };
@@ -33,7 +34,8 @@ static inline double magnitude(struct dice *d, double lo, double hi)
 /* Every component less than `size` from 0. */
 static inline struct vec3 random_vector(struct dice *d, double size)
 {
-    return vec3(uniform(d, -size, size), uniform(d, -size, size), uniform(d, -size, size));
+    double x = uniform(d, -size, size), y = uniform(d, -size, size); /* in this order */
+    return vec3(x, y, uniform(d, -size, size));
 }
 
 static inline struct vec3 random_direction(struct dice *d)
