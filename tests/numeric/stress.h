@@ -8,8 +8,8 @@
 /* Rounding error of one operation, relative. */
 #define EPS 0x1p-53
 
-/* Random numbers of one part of a row: the same in every run, though compilers that take arguments in
- * another order use them for other things. */
+/* Random numbers of one part of a row: the same in every run, though compilers that take arguments
+ * in another order use them for other things. */
 struct dice {
     uint64_t seed, count;
 };

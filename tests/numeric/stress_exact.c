@@ -7,6 +7,8 @@
 
 #include "stress.h"
 
+#include "scene/intersect.h"
+
 #ifdef HAVE___FLOAT128
 #include "wide.h"
 
@@ -276,6 +278,41 @@ static double line_to_edges(const struct triangle_case *c)
     return sqrt((double)least);
 }
 
+/* a b - c d: both products are exact. */
+static int sign_of_difference(double a, double b, double c, double d)
+{
+    wide ab = (wide)a * b, cd = (wide)c * d;
+    return (ab > cd) - (ab < cd);
+}
+
+/* Three corners in the plane across the ray, each nearly on a line with another and the ray, often
+ * exactly so. */
+static void try_edge_signs(struct dice *d, uint64_t cases, struct tally *tally)
+{
+    static const struct ray_frame frame = {.axis = 2};
+    for (uint64_t i = 0; i < cases; i++) {
+        struct vec3 v[3];
+        v[0] = random_vector(d, magnitude(d, 1e-8, 1e8));
+        for (int k = 1; k < 3; k++) {
+            double by = uniform(d, -2, 2) * magnitude(d, 1e-3, 1e3);
+            v[k] = below(d, 4) ? vec3_scale(v[k - 1], by) : random_vector(d, fabs(by));
+            if (below(d, 2))
+                v[k].x *= 1 + ((int)below(d, 9) - 4) * 2 * EPS;
+        }
+        int above = 0, under = 0;
+        for (int k = 0; k < 3; k++) {
+            struct vec3 p = v[k], q = v[(k + 1) % 3];
+            int sign = sign_of_difference(q.x, p.y, q.y, p.x);
+            above += sign > 0;
+            under += sign < 0;
+        }
+        struct seen_triangle seen = {v[0], v[1], v[2]};
+        bool encloses = !(above && under) && (above || under);
+        tally->wrong += triangle_meets_axis(&seen, &frame, 2) != encloses;
+    }
+    tally->cases += cases;
+}
+
 static void try_triangle_edges(struct dice *d, uint64_t cases, struct tally *tally)
 {
     for (uint64_t i = 0; i < cases; i++) {
@@ -436,6 +473,7 @@ static void try_translations(struct dice *d, uint64_t cases, struct tally *tally
 #else /* the rows are skipped */
 #define try_spheres NULL
 #define try_cylinders NULL
+#define try_edge_signs NULL
 #define try_triangle_edges NULL
 #define try_triangle_planes NULL
 #define try_hit_points NULL
@@ -450,6 +488,8 @@ const struct row rows_exact[] = {
      try_cylinders, true},
     {"triangle: a wrong hit or miss is this near an edge", "eps L", 8, 100000, 100000000,
      try_triangle_edges, true},
+    {"triangle: exact signs of nearly degenerate corners", "", 0, 100000, 100000000, try_edge_signs,
+     true},
     {"triangle: off its plane", "eps (L + sliver)", 8, 50000, 10000000, try_triangle_planes, true},
     {"hit points: off the surface", "eps coordinates", 8, 50000, 10000000, try_hit_points, true},
     {"instances: off the image of the mesh", "eps coordinates growth", 4, 20000, 10000000,

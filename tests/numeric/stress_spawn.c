@@ -84,8 +84,9 @@ static void try_spawned(struct dice *d, const struct geometry *g, const struct r
 {
     struct vec3 normal, p = geometry_hit_point(g, ray, hit, &normal);
     struct hit other;
-    /* a ray almost along a plane meets it somewhere along it */
-    if (fabs(vec3_dot(normal, ray->direction)) > 0.01 * vec3_length(ray->direction))
+    /* seen from afar, or almost along its plane, a point may lie beyond the edge of a face */
+    double length = vec3_length(ray->direction), reach = vec3_largest(p);
+    if (fabs(vec3_dot(normal, ray->direction)) > 0.01 * length && hit->t * length < 100 * reach)
         tally->wrong += !geometry_lies_on(g, hit->prim, p, vec3_largest(p));
     for (int i = 0; i < 4; i++) {
         struct vec3 out = i == 0 ? normal : random_direction(d);
@@ -105,18 +106,19 @@ static void try_spawned(struct dice *d, const struct geometry *g, const struct r
 
 enum { RAYS_A_SOLID = 20 };
 
-/* Errors of the point and of the normal, as an angle seen from inside the solid. */
-static double clearance_of(struct vec3 middle, double size, double uneven)
+/* Errors of the point and of the normal, as an angle seen from inside the solid; beside an edge, of
+ * the point as seen from where the next face's plane is first told apart. */
+static double clearance_of(bool flat, struct vec3 middle, double size, double uneven)
 {
-    return 32 * SPAWN_TOLERANCE * uneven * uneven * (vec3_largest(middle) + size) / size;
+    double solid = 32 * SPAWN_TOLERANCE * uneven * uneven * (vec3_largest(middle) + size) / size;
+    return flat ? fmax(solid, 16 * EPS / SPAWN_TOLERANCE) : solid;
 }
 
 static void try_leaving(struct dice *d, enum solid solid, bool instance, struct tally *tally)
 {
     struct geometry g = {0}, shape = {0};
     double size = magnitude(d, 1e-8, 1e8), uneven = instance ? magnitude(d, 1, 100) : 1;
-    double far = magnitude(d, 1, 1000);
-    struct affine map = random_map(d, size, uneven, far);
+    struct affine map = random_map(d, size, uneven, magnitude(d, 1, 1000));
     if (!instance)
         map = affine_times(
             &(struct affine){
@@ -133,11 +135,13 @@ static void try_leaving(struct dice *d, enum solid solid, bool instance, struct 
         copy_solid(&g, &shape, size, middle);
     }
     for (int i = 0; i < RAYS_A_SOLID && g.prims.n > 0; i++) {
-        struct vec3 from = vec3_mad(middle, 30 * size, random_direction(d));
+        double far = size * magnitude(d, 5, 1e6);
+        struct vec3 from = vec3_mad(middle, far, random_direction(d));
         struct ray ray = ray_between(from, affine_point(&map, spot_on(d, &shape)));
         struct hit hit;
         if (shoot(&g, &ray, &hit))
-            try_spawned(d, &g, &ray, &hit, middle, clearance_of(middle, size, uneven), tally);
+            try_spawned(d, &g, &ray, &hit, middle,
+                        clearance_of(shape.triangles.n > 0, middle, size, uneven), tally);
     }
     geometry_free(&shape);
     geometry_free(&g);

@@ -168,7 +168,9 @@ static void try_rims(struct dice *d, uint64_t cases, struct tally *tally)
             struct ray ray = ray_through(d, inside, cylinder_point(d, c));
             if (below(d, 16) == 0) { /* along the axis, exactly or nearly */
                 ray = ray_between(inside, vec3_mad(inside, c->height, c->axis));
-                ray.direction = below(d, 2) ? c->axis : ray.direction;
+                ray.direction = below(d, 4) ? c->axis : ray.direction;
+                if (below(d, 2))
+                    ray.direction.x = nextafter(ray.direction.x, below(d, 2) ? 2 : -2);
             }
             try_ray(&a, &ray, tally);
         }
