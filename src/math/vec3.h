@@ -87,6 +87,12 @@ static inline struct vec3 vec3_cross(struct vec3 a, struct vec3 b)
                          difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
+/* By plain products: for what their rounding, relative to the lengths, does not harm. */
+static inline struct vec3 vec3_cross_plain(struct vec3 a, struct vec3 b)
+{
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
 /* Unit vectors across the unit vector n, and each other: Duff et al., Building an orthonormal basis,
  * revisited, JCGT 2017. */
 static inline void vec3_basis(struct vec3 n, struct vec3 *x, struct vec3 *y)

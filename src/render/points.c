@@ -162,6 +162,22 @@ static void gather_points(struct worker *w, const struct ray_batch *rays)
         gather_any(w, rays);
 }
 
+static void settle_points(struct worker *w)
+{
+    const struct geometry *g = &w->tracer->scene->geometry;
+    struct shade_batch *points = &w->points;
+    uint32_t k = w->shapes.first[PRIM_TRIANGLE], end = w->shapes.first[PRIM_TRIANGLE + 1];
+    while (k < end) {
+        uint32_t prim = points->prim[k];
+        struct fence fence = triangle_fence(g, prim);
+        for (; k < end && points->prim[k] == prim; k++) {
+            struct vec3 p = vec3_get(&points->p, k);
+            if (!fence_holds(&fence, p))
+                vec3_put(&points->p, k, triangle_settle(g, prim, p, vec3_largest(p)));
+        }
+    }
+}
+
 /* Points on instances, which the kernels know nothing of. */
 static void find_points_on_instances(struct worker *w)
 {
@@ -442,6 +458,7 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     for (uint32_t k = 0; k < w->points.n; k++)
         w->points.inside[k] = inside[w->points.ray[k]];
     t->kernels->hit_points(&t->scene->geometry, &w->shapes, &w->points);
+    settle_points(w);
     if (w->shapes.weighted)
         t->kernels->weights(&t->scene->geometry, &w->shapes, &w->points);
     find_points_on_instances(w);

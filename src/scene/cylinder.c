@@ -38,7 +38,7 @@ static double reach_of(const struct cylinder *c)
 static bool clip_to_side(const struct cylinder *c, const struct seen_cylinder *seen,
                          struct vec3 direction, double rounding, struct stretch *s)
 {
-    struct vec3 n = cylinder_cross(direction, c->axis);
+    struct vec3 n = vec3_cross_plain(direction, c->axis);
     double a = vec3_dot(n, n), off = vec3_dot(direction, seen->w), r2 = c->radius * c->radius;
     double b = vec3_dot(n, seen->w);
     double power = vec3_dot(seen->w, seen->w) - r2; /* of the origin: 0 on the side */
@@ -109,7 +109,7 @@ double cylinder_distance(const struct cylinder *c, const struct seen_cylinder *s
 bool cylinder_lies_on(const struct geometry *g, uint32_t prim, struct vec3 p, double reach)
 {
     const struct cylinder *c = cylinder_at(g, prim);
-    struct vec3 m = vec3_sub(p, c->base), w = cylinder_cross(m, c->axis);
+    struct vec3 m = vec3_sub(p, c->base), w = vec3_cross_plain(m, c->axis);
     double z = vec3_dot(m, c->axis), r2 = c->radius * c->radius;
     double power = vec3_dot(w, w) - r2;
     double rounding = SPAWN_TOLERANCE * (reach + reach_of(c));

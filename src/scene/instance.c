@@ -190,6 +190,9 @@ struct vec3 instance_hit_point(const struct geometry *g, const struct ray *ray,
     struct inner_ray inner = instance_ray(i, ray, hit->t);
     struct hit inner_hit = {.t = hit->t, .prim = spot.prim, .part = spot.part};
     struct vec3 p = geometry_hit_point(spot.geometry, &inner.ray, &inner_hit, normal);
+    if (spot.geometry->prims.at[spot.prim].kind == PRIM_TRIANGLE)
+        p = triangle_settle(spot.geometry, spot.prim, p,
+                            i->growth * vec3_largest(affine_point(&i->to_world, p)) + i->reach);
     *normal = affine_normal(&i->to_shape, *normal);
     *normal = vec3_largest(*normal) > 0 ? vec3_normalize(*normal) : *normal;
     return affine_point(&i->to_world, p);

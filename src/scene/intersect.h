@@ -54,17 +54,11 @@ struct seen_cylinder {
     struct vec3 w; /* m x axis */
 };
 
-/* Plain products: their error, relative to the lengths, is within what the angle to the axis costs
- * anyway. */
-static inline struct vec3 cylinder_cross(struct vec3 a, struct vec3 b)
-{
-    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-
+/* Plain products: their error is within what the angle to the axis costs anyway. */
 static inline struct seen_cylinder cylinder_seen(const struct cylinder *c, struct vec3 origin)
 {
     struct vec3 m = vec3_sub(origin, c->base);
-    return (struct seen_cylinder){m, cylinder_cross(m, c->axis)};
+    return (struct seen_cylinder){m, vec3_cross_plain(m, c->axis)};
 }
 
 /* False when the ray's line passes the axis too far off; most rays end here. */

@@ -36,8 +36,8 @@ static int difference(const struct picture *p, const struct picture *reference, 
                       uint32_t x, uint32_t y)
 {
     const uint8_t *a = p->bytes + 3 * ((size_t)(p->height - 1 - y) * p->width + x);
-    const uint8_t *b = reference->bytes +
-                       3 * ((size_t)(reference->height - 1 - k * y) * reference->width + k * x);
+    const uint8_t *b =
+        reference->bytes + 3 * ((size_t)(reference->height - 1 - k * y) * reference->width + k * x);
     int most = 0;
     for (int c = 0; c < 3; c++)
         most = abs(a[c] - b[c]) > most ? abs(a[c] - b[c]) : most;
@@ -74,7 +74,8 @@ int main(int argc, char **argv)
     }
     double pixels = (double)p->width * p->height;
     /* rounded down, so that a printed 99.900 has been reached */
-    printf("%.3f %d %u %u\n", (double)(size_t)((double)within / pixels * 1e5) / 1e3, most, at_x, at_y);
+    printf("%.3f %d %u %u\n", (double)(size_t)((double)within / pixels * 1e5) / 1e3, most, at_x,
+           at_y);
     picture_free(p);
     picture_free(reference);
     return 0;

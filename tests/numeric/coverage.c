@@ -1,9 +1,10 @@
 /* coverage MASK DEPTH | coverage PICTURE PICTURE --colours
  *
  * How alike two programs see a scene.  MASK shows what another one hits in white; DEPTH is wrt's
- * picture of depths.  In classic it is twice as wide and high, so that every other pixel was sampled
- * in the middle of one of MASK's; in modern all are.  Prints the percentage of pixels that agree and of those that hit something.
- * With --colours the pictures have one size, and their root mean square difference is printed. */
+ * picture of depths.  In classic it is twice as wide and high, so that every other pixel was
+ * sampled in the middle of one of MASK's; in modern all are.  Prints the percentage of pixels that
+ * agree and of those that hit something. With --colours the pictures have one size, and their root
+ * mean square difference is printed. */
 #include "config.h"
 
 #include "base/file.h"

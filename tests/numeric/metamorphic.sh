@@ -229,6 +229,20 @@ render copied copied
 render instanced instanced
 near "modern: a mesh as an instance, and as a copy" copied instanced
 
+# two walls that meet, lit from behind one of them: no light gets in along the line
+cat >"$tmp/corner.wrt" <<END
+wrt 1
+model modern
+camera { eye: (0, 0, -5)  look_at: 0  fov: 40deg  resolution: (33, 33) }
+settings { background: 0  ambient: 0 }
+light point { position: (3, 0, 0)  intensity: 9 }
+quad { vertices: [(0, -3, 0), (0, 3, 0), (-3, 3, -3), (-3, -3, -3)]  material: lambert { diffuse: 1 } }
+quad { vertices: [(0, -3, 0), (0, 3, 0), (3, 3, -3), (3, -3, -3)]  material: lambert { diffuse: 1 } }
+END
+render corner other
+lit=$(tail -c $((3 * 33 * 33)) "$tmp/other.ppm" | tr -d '\0' | wc -c)
+row 'an inner corner, lit from behind: channels with light' "$lit" '0' "$([ "$lit" = 0 ] && echo yes)"
+
 # ---- things without a shape ----------------------------------------------------------------------
 
 # mesh_of VERTEX...: one triangle among them, as $tmp/odd.off, in a scene.

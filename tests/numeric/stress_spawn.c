@@ -84,6 +84,8 @@ static void try_spawned(struct dice *d, const struct geometry *g, const struct r
 {
     struct vec3 normal, p = geometry_hit_point(g, ray, hit, &normal);
     struct hit other;
+    if (g->prims.at[hit->prim].kind == PRIM_TRIANGLE)
+        p = triangle_settle(g, hit->prim, p, vec3_largest(p));
     /* seen from afar, or almost along its plane, a point may lie beyond the edge of a face */
     double length = vec3_length(ray->direction), reach = vec3_largest(p);
     if (fabs(vec3_dot(normal, ray->direction)) > 0.01 * length && hit->t * length < 100 * reach)
@@ -104,6 +106,25 @@ static void try_spawned(struct dice *d, const struct geometry *g, const struct r
     tally->cases++;
 }
 
+/* From within, where an inner corner is: every ray inwards meets another face. */
+static void try_room(struct dice *d, const struct geometry *g, const struct ray *ray,
+                     const struct hit *hit, double clearance, struct tally *tally)
+{
+    struct vec3 normal, p = geometry_hit_point(g, ray, hit, &normal);
+    struct hit other;
+    if (g->prims.at[hit->prim].kind == PRIM_TRIANGLE)
+        p = triangle_settle(g, hit->prim, p, vec3_largest(p));
+    if (vec3_dot(normal, ray->direction) > 0)
+        normal = vec3_neg(normal);
+    for (int i = 0; i < 4; i++) {
+        double rise = magnitude(d, 2 * clearance, 2);
+        struct vec3 direction = vec3_mad(random_across(d, normal), rise, normal);
+        struct ray next = spawned(hit, p, direction);
+        tally->wrong += !shoot(g, &next, &other);
+        tally->cases++;
+    }
+}
+
 enum { RAYS_A_SOLID = 20 };
 
 /* Errors of the point and of the normal, as an angle seen from inside the solid; beside an edge, of
@@ -114,7 +135,9 @@ static double clearance_of(bool flat, struct vec3 middle, double size, double un
     return flat ? fmax(solid, 16 * EPS / SPAWN_TOLERANCE) : solid;
 }
 
-static void try_leaving(struct dice *d, enum solid solid, bool instance, struct tally *tally)
+/* Seen from outside, or from within. */
+static void try_start(struct dice *d, enum solid solid, bool instance, bool within,
+                      struct tally *tally)
 {
     struct geometry g = {0}, shape = {0};
     double size = magnitude(d, 1e-8, 1e8), uneven = instance ? magnitude(d, 1, 100) : 1;
@@ -137,11 +160,17 @@ static void try_leaving(struct dice *d, enum solid solid, bool instance, struct 
     for (int i = 0; i < RAYS_A_SOLID && g.prims.n > 0; i++) {
         double far = size * magnitude(d, 5, 1e6);
         struct vec3 from = vec3_mad(middle, far, random_direction(d));
-        struct ray ray = ray_between(from, affine_point(&map, spot_on(d, &shape)));
+        struct vec3 inside = affine_point(&map, random_vector(d, 0.05));
+        struct ray ray =
+            ray_between(within ? inside : from, affine_point(&map, spot_on(d, &shape)));
         struct hit hit;
-        if (shoot(&g, &ray, &hit))
-            try_spawned(d, &g, &ray, &hit, middle,
-                        clearance_of(shape.triangles.n > 0, middle, size, uneven), tally);
+        if (!shoot(&g, &ray, &hit))
+            continue;
+        double clearance = clearance_of(shape.triangles.n > 0, middle, size, uneven);
+        if (within)
+            try_room(d, &g, &ray, &hit, clearance, tally);
+        else
+            try_spawned(d, &g, &ray, &hit, middle, clearance, tally);
     }
     geometry_free(&shape);
     geometry_free(&g);
@@ -150,25 +179,31 @@ static void try_leaving(struct dice *d, enum solid solid, bool instance, struct 
 static void try_leaving_spheres(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases)
-        try_leaving(d, SOLID_SPHERE, false, tally);
+        try_start(d, SOLID_SPHERE, false, false, tally);
 }
 
 static void try_leaving_cylinders(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases)
-        try_leaving(d, SOLID_CYLINDER, false, tally);
+        try_start(d, SOLID_CYLINDER, false, false, tally);
 }
 
 static void try_leaving_meshes(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases)
-        try_leaving(d, below(d, 2) ? SOLID_BOX : SOLID_GLOBE, false, tally);
+        try_start(d, below(d, 2) ? SOLID_BOX : SOLID_GLOBE, false, false, tally);
 }
 
 static void try_leaving_instances(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases)
-        try_leaving(d, (enum solid)below(d, 4), true, tally);
+        try_start(d, (enum solid)below(d, 4), true, false, tally);
+}
+
+static void try_rooms(struct dice *d, uint64_t cases, struct tally *tally)
+{
+    while (tally->cases < cases)
+        try_start(d, below(d, 2) ? SOLID_BOX : SOLID_GLOBE, below(d, 2), true, tally);
 }
 
 /* ---- bounces, against wide numbers ------------------------------------------------------------
@@ -228,6 +263,7 @@ static void try_mirrors(struct dice *d, uint64_t cases, struct tally *tally)
             p = geometry_hit_point(&g, &ray, &hit, &normal);
             struct vec3 next = modern ? mirrored_modern(ray.direction, normal)
                                       : mirrored_classic(ray.direction, normal);
+            tally->wrong += !(fabs(vec3_dot(next, next) - 1) <= 16 * EPS);
             ray = spawned(&hit, p, next);
             wide_bounce(&q, &direction);
             struct wide3 off = wide_sub(widen(p), q);
@@ -309,6 +345,7 @@ const struct row rows_spawn[] = {
      false},
     {"rays that leave instances of all these", "", 0, 100000, 10000000, try_leaving_instances,
      false},
+    {"rays within rooms, from their inner corners", "", 0, 100000, 10000000, try_rooms, false},
     {"mirror sphere, 1000 bounces: off the path", "x 1e-15 bounces^2", 1, 40, 10000, try_mirrors,
      true},
     {"refraction near the critical angle: cosine", "DBL_EPSILON / cos", 8, 50000, 10000000,

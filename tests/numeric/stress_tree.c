@@ -83,9 +83,21 @@ static struct vec3 target_in(struct dice *d, const struct geometry *g, double si
     return random_vector(d, 10 * size);
 }
 
+/* From somewhere in the plane of a triangle, or near it, over the triangle. */
+static struct ray grazing_ray(struct dice *d, const struct geometry *g, double size)
+{
+    const uint32_t *v = g->triangles.at[below(d, (uint32_t)g->triangles.n)].vertex;
+    struct vec3 a = g->vertices.at[v[0]], b = g->vertices.at[v[1]], c = g->vertices.at[v[2]];
+    struct vec3 from = vec3_mad(a, magnitude(d, 1, 1e5), vec3_sub(b, a));
+    from = vec3_add(from, random_vector(d, size * magnitude(d, 1e-16, 1e-6)));
+    return ray_between(from, vec3_mad(b, uniform(d, 0, 1), vec3_sub(c, b)));
+}
+
 static struct ray any_ray(struct dice *d, const struct geometry *g, double size)
 {
     static const double odd[] = {0, -0.0, 1, -1, INFINITY, NAN};
+    if (g->triangles.n > 0 && below(d, 4) == 0)
+        return grazing_ray(d, g, size);
     struct vec3 from = random_vector(d, size * (below(d, 4) ? 20 : 1e5));
     struct ray ray = ray_between(from, target_in(d, g, size));
     if (below(d, 8) == 0)
