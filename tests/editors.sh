@@ -68,7 +68,7 @@ values()
     case $1 in
     --output) echo FILE ;;
     --include) echo DIR ;;
-    --show) echo normals depth ids ;;
+    --show) echo normals depth ids samples ;;
     --accel) echo none ;;
     --isa) echo plain generic avx2 avx512 ;;
     --to) echo xml wrt json pov tachyon ;;
@@ -276,8 +276,8 @@ completes 'wrt li' 'lint'
 completes 'wrt render ' 'a.xml b.wrt folder'
 completes 'wrt b' 'b.wrt'
 completes 'wrt --sh' '--show'
-completes 'wrt render --show ' 'normals depth ids'
-completes 'wrt render --show=' 'normals depth ids'
+completes 'wrt render --show ' 'normals depth ids samples'
+completes 'wrt render --show=' 'normals depth ids samples'
 completes 'wrt render --show=no' 'normals'
 completes 'wrt --format=json check ' 'a.xml b.wrt folder'
 completes 'wrt -o lint' ''

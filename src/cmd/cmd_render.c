@@ -115,11 +115,30 @@ static int choose_size(struct run *r)
     return 0;
 }
 
+/* What adaptive sampling cannot be combined with; 0 or an exit status. */
+static int check_sampling(const struct options *o, const struct scene *scene)
+{
+    enum { MOST_CELLS = 16 };
+    bool power_of_two = (o->grid & (o->grid - 1)) == 0;
+    if (o->adaptive > 0 && (!power_of_two || o->grid > MOST_CELLS))
+        return usage_error("-s is 1, 2, 4, 8 or 16 with --adaptive, not %u", o->grid);
+    if (o->adaptive > 0 && o->jitter && scene->model == SCENE_CLASSIC)
+        return usage_error("--adaptive places its samples itself, and in a classic scene --jitter "
+                           "moves nothing else");
+    if (o->adaptive > 0 && o->show != SHOW_PICTURE && o->show != SHOW_SAMPLES)
+        return usage_error(
+            "--show takes one sample a pixel; of --adaptive, only samples are shown");
+    if (!(o->adaptive > 0) && o->show == SHOW_SAMPLES)
+        return usage_error("--show samples tells what --adaptive does, which is not given");
+    return 0;
+}
+
 static void choose_sampling(struct run *r)
 {
     const struct options *o = r->options;
     struct render_options *to = &r->render;
-    to->grid = o->grid ? o->grid : r->lowered.scene.grid;
+    to->grid = o->grid ? o->grid : o->adaptive > 0 ? 1 : r->lowered.scene.grid;
+    to->adaptive = o->adaptive;
     to->jitter = o->jitter;
     to->seed = o->seed;
     to->depth = o->depth != DEPTH_OF_SCENE ? o->depth : r->lowered.scene.depth;
@@ -168,21 +187,13 @@ static int load(struct run *r)
     return status;
 }
 
-/* What is shown instead of light is stored as it is. */
-static enum picture_encoding picture_encoding(const struct scene *s, enum render_show show)
-{
-    if (s->model == SCENE_CLASSIC || show != SHOW_PICTURE)
-        return ENCODING_PLAIN;
-    return s->linear ? ENCODING_LINEAR : ENCODING_SRGB;
-}
-
 static void render(struct run *r)
 {
     struct render_options *to = &r->render;
     uint32_t width = to->crop.x1 - to->crop.x0, height = to->crop.y1 - to->crop.y0;
     choose_sampling(r);
     r->picture = picture_new(width, height, r->format == PICTURE_PFM);
-    r->picture->encoding = picture_encoding(&r->lowered.scene, to->show);
+    r->picture->encoding = render_encoding(&r->lowered.scene, to->show);
     progress_begin(&r->progress, r->options->quiet, (unsigned long)width * height);
     to->progress.report = progress_report;
     to->progress.context = &r->progress;
@@ -213,6 +224,8 @@ static int run_steps(struct run *r)
         status = load(r);
     if (status == 0)
         status = choose_size(r);
+    if (status == 0)
+        status = check_sampling(r->options, &r->lowered.scene);
     const char *obstacle = status == 0 ? output_obstacle(r->output) : NULL;
     if (obstacle)
         status = report_output(r, obstacle);

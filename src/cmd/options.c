@@ -89,6 +89,29 @@ static bool take_whole(const struct opt_row *row, const char *text, struct optio
     return right;
 }
 
+/* A number, or one divided by another. */
+static bool read_ratio(const char *text, double *out)
+{
+    const char *end = text + strlen(text), *slash = strchr(text, '/');
+    double divisor = 1;
+    if (num_parse(text, slash ? slash : end, out) != (slash ? slash : end))
+        return false;
+    if (slash && num_parse(slash + 1, end, &divisor) != end)
+        return false;
+    *out /= divisor;
+    return true;
+}
+
+static bool take_adaptive(const struct opt_row *row, const char *text, struct options *out)
+{
+    out->adaptive = 1.0 / 255;
+    if (!text || (read_ratio(text, &out->adaptive) && out->adaptive > 0 && out->adaptive < 1))
+        return true;
+    usage_error("--%s takes an error between 0 and 1, as in 0.01 or 1/255, not '%s'", row->name,
+                text);
+    return false;
+}
+
 static bool take_seed(const struct opt_row *row, const char *text, struct options *out)
 {
     return take_between(row, text, 0, UINT64_MAX, &out->seed);
@@ -180,8 +203,8 @@ static int take_word(const struct opt_row *row, const char *text, const char *co
 
 static bool take_show(const struct opt_row *row, const char *text, struct options *out)
 {
-    static const char *const words[] = {"normals", "depth", "ids", NULL};
-    static const enum render_show shows[] = {SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS};
+    static const char *const words[] = {"normals", "depth", "ids", "samples", NULL};
+    static const enum render_show shows[] = {SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS, SHOW_SAMPLES};
     int i = take_word(row, text, words);
     out->show = i >= 0 ? shows[i] : SHOW_PICTURE;
     return i >= 0;

@@ -45,8 +45,9 @@ struct options {
     uint32_t width, height;    /* 0: the scene's */
     bool cropped;
     uint32_t crop[4];
-    uint32_t grid;  /* 0: the scene's */
-    uint32_t depth; /* or DEPTH_OF_SCENE */
+    uint32_t grid;   /* 0: the scene's */
+    double adaptive; /* 0: off */
+    uint32_t depth;  /* or DEPTH_OF_SCENE */
     uint32_t threads;
     uint64_t seed;
     size_t max_objects;

@@ -36,20 +36,41 @@ static void print_json(json_t *object, const struct options *o)
     json_decref(object);
 }
 
+/* Samples a pixel. */
+static double samples_mean(const struct run_stats *s)
+{
+    return (double)s->render.primary / ((double)s->width * s->height);
+}
+
+static json_t *samples_json(const struct run_stats *s, const struct options *o)
+{
+    return o->adaptive > 0 ? json_real(samples_mean(s)) : json_integer(s->grid * s->grid);
+}
+
+/* NULL where it was not asked for. */
+static json_t *adaptive_json(const struct run_stats *s, const struct options *o)
+{
+    const struct adaptive_stats *a = &s->render.adaptive;
+    if (!(o->adaptive > 0))
+        return NULL;
+    return json_pack("{s:f, s:f, s:i, s:f, s:f}", "error", o->adaptive, "samples_mean",
+                     samples_mean(s), "samples_max", (int)a->most, "estimated_error", a->error,
+                     "estimated_error_max", a->worst);
+}
+
 static void render_json(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
     const struct render_stats *r = &s->render;
     print_json(
-        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:i, s:{s:I, s:I, "
-                  "s:I, s:I}, s:I, s:{s:I, s:I, s:I}, s:I,"
-                  " s:I, s:o, s:I}",
+        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:{s:I, s:I, "
+                  "s:I, s:I}, s:I, s:{s:I, s:I, s:I}, s:I, s:I, s:o, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
-                  (int)s->height, "samples", (int)(s->grid * s->grid), "rays", "primary",
-                  (json_int_t)r->primary, "shadow", (json_int_t)r->shadow, "reflection",
-                  (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction,
+                  (int)s->height, "samples", samples_json(s, o), "adaptive", adaptive_json(s, o),
+                  "rays", "primary", (json_int_t)r->primary, "shadow", (json_int_t)r->shadow,
+                  "reflection", (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction,
                   "shadow_rays_skipped", (json_int_t)shadow_rays_skipped(r),
                   "shadow_rays_skipped_as", "open", (json_int_t)r->skipped[SKIP_OPEN], "umbra",
                   (json_int_t)r->skipped[SKIP_UMBRA], "duplicate",
@@ -69,9 +90,17 @@ static void render_text(const struct run_stats *s, const struct options *o,
 {
     const struct render_stats *r = &s->render;
     uint64_t rays = r->primary + r->shadow + r->reflection + r->refraction;
-    fprintf(stderr, "picture    %u x %u, %u sample%s a pixel, %u thread%s, %s\n", s->width,
-            s->height, s->grid * s->grid, s->grid > 1 ? "s" : "", o->threads,
-            o->threads > 1 ? "s" : "", isa_name(o->isa));
+    fprintf(stderr, "picture    %u x %u, ", s->width, s->height);
+    if (o->adaptive > 0)
+        fprintf(stderr, "%.2f samples a pixel, ", samples_mean(s));
+    else
+        fprintf(stderr, "%u sample%s a pixel, ", s->grid * s->grid, s->grid > 1 ? "s" : "");
+    fprintf(stderr, "%u thread%s, %s\n", o->threads, o->threads > 1 ? "s" : "", isa_name(o->isa));
+    if (o->adaptive > 0)
+        fprintf(stderr,
+                "adaptive   %u samples a pixel at most; estimated error %.2g, %.2g at most "
+                "(%.2g wanted)\n",
+                r->adaptive.most, r->adaptive.error, r->adaptive.worst, o->adaptive);
     fputs("scene      ", stderr);
     put_count(scene->surfaces.n, "surface", ", ");
     put_count(count_triangles(scene), "triangle", ", ");

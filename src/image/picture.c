@@ -158,6 +158,12 @@ static uint8_t channel_byte(double c, double rounding)
     return (uint8_t)(c > 0 ? byte : 0);
 }
 
+double picture_channel(enum picture_encoding encoding, double c)
+{
+    c = c > 0 ? c < 1 ? c : 1 : 0;
+    return encoding == ENCODING_SRGB ? srgb_encode(c) : c;
+}
+
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
 {
     size_t at = ((size_t)y * p->width + x) * 3;

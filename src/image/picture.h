@@ -32,6 +32,9 @@ bool image_size_allowed(uint64_t width, uint64_t height);
 struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
 void picture_free(struct picture *p);
 
+/* What bytes hold of a channel, before they are rounded: from 0 to 1. */
+double picture_channel(enum picture_encoding encoding, double c);
+
 /* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels
  * at once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);

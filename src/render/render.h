@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum render_show { SHOW_PICTURE, SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS };
+enum render_show { SHOW_PICTURE, SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS, SHOW_SAMPLES };
 
 /* Called now and then from one thread with the share of the work done, in [0, 1]. */
 struct render_progress {
@@ -22,8 +22,9 @@ struct render_options {
     bool whole_view; /* it shows what the scene's own resolution does, whatever its proportions */
     struct {
         uint32_t x0, y0, x1, y1;
-    } crop;        /* pixels, top left origin, x1 and y1 outside */
-    uint32_t grid; /* grid x grid samples a pixel, >= 1 */
+    } crop;          /* pixels, top left origin, x1 and y1 outside */
+    uint32_t grid;   /* grid x grid samples a pixel, >= 1; adaptive: cells, a power of two */
+    double adaptive; /* samples go on until the standard error is below it; 0: they do not */
     bool jitter;
     uint64_t seed;
     uint32_t depth;   /* rays deeper than this are black; the original's 3 */
@@ -39,16 +40,25 @@ struct render_options {
  * from the point; another ray to the same sample is. */
 enum skip_reason { SKIP_OPEN, SKIP_UMBRA, SKIP_DUPLICATE, SKIP_REASONS };
 
+struct adaptive_stats {
+    double error, worst; /* estimated standard errors of the pixels: root mean square, largest */
+    uint32_t most;       /* samples of one pixel */
+};
+
 struct render_stats {
     double build_s, render_s;
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
     uint64_t skipped[SKIP_REASONS]; /* shadow rays whose outcome was known without tracing */
+    struct adaptive_stats adaptive;
 };
 
 static inline uint64_t shadow_rays_skipped(const struct render_stats *s)
 {
     return s->skipped[SKIP_OPEN] + s->skipped[SKIP_UMBRA] + s->skipped[SKIP_DUPLICATE];
 }
+
+/* How bytes of the picture hold what is shown: light by the model, anything else as it is. */
+enum picture_encoding render_encoding(const struct scene *scene, enum render_show show);
 
 /* Renders the crop of the picture into `out` (made by picture_new with the crop's size).  The bytes
  * do not depend on threads, crop, brute_force or no_skip. */

@@ -374,6 +374,43 @@ START_TEST(seeds_make_different_pictures)
 }
 END_TEST
 
+static struct picture *render_adaptive_part(const struct scene *s, double error, uint32_t cells,
+                                            struct render_stats *stats)
+{
+    struct render_options o = whole_picture(s);
+    o.adaptive = error;
+    o.grid = cells;
+    o.depth = 2;
+    o.crop.x0 = 20, o.crop.y0 = 14, o.crop.x1 = 36, o.crop.y1 = 26;
+    struct picture *p = picture_new(16, 12, true);
+    render_scene(s, &o, p, stats);
+    return p;
+}
+
+/* The root mean square of the errors is what it is estimated to be, within a factor of two. */
+START_TEST(adaptive_errors_are_estimated)
+{
+    static const double wanted[] = {0.5, 0.1, 0.03};
+    struct scene s;
+    make_scene(&s, 1, true);
+    struct render_stats stats, exact;
+    struct picture *truth = render_adaptive_part(&s, 0.004, 8, &exact);
+    struct picture *p = render_adaptive_part(&s, wanted[_i], 1, &stats);
+    double squares = 0;
+    size_t n = 3 * (size_t)p->width * p->height;
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(p->floats[i]) && !isnan(truth->floats[i]))
+            squares += (p->floats[i] - truth->floats[i]) * (p->floats[i] - truth->floats[i]);
+    double ratio = sqrt(squares / (double)n) / stats.adaptive.error;
+    ck_assert_msg(ratio > 0.5 && ratio < 2, "wanted %g: %g of the estimate", wanted[_i], ratio);
+    ck_assert(stats.adaptive.worst <= wanted[_i]);
+    ck_assert_uint_lt(stats.primary, exact.primary / 4);
+    picture_free(truth);
+    picture_free(p);
+    scene_free(&s);
+}
+END_TEST
+
 /* Two mirrors face to face, as deep as asked. */
 START_TEST(deep_reflections_end)
 {
@@ -459,6 +496,7 @@ Suite *render_suite(void)
     tcase_add_loop_test(c, scale_changes_nothing, -5, 6);
     tcase_add_test(c, classic_samples_pixel_corners);
     tcase_add_test(c, seeds_make_different_pictures);
+    tcase_add_loop_test(c, adaptive_errors_are_estimated, 0, 3);
     tcase_add_test(c, deep_reflections_end);
     tcase_add_loop_test(c, empty_scenes_are_black, 0, 4);
     tcase_add_test(c, progress_is_reported);

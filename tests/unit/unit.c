@@ -25,6 +25,7 @@ int main(void)
     srunner_add_suite(runner, bvh_suite());
     srunner_add_suite(runner, geometry_suite());
     srunner_add_suite(runner, instance_suite());
+    srunner_add_suite(runner, cubature_suite());
     srunner_add_suite(runner, kernels_suite());
     srunner_add_suite(runner, print_suite());
     srunner_add_suite(runner, modern_suite());

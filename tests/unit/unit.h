@@ -6,6 +6,7 @@
 
 Suite *base_suite(void);
 Suite *bvh_suite(void);
+Suite *cubature_suite(void);
 Suite *diag_suite(void);
 Suite *eval_suite(void);
 Suite *formats_suite(void);

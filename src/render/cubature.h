@@ -1,0 +1,57 @@
+/* The mean of a colour over the unit square, from few samples where it is even and many where it is
+ * not.
+ *
+ * The square is a tree of square cells, each sampled at its corners and in its middle; cells share
+ * corners.  A cell whose middle is the mean of its corners, as that of any plane is, needs no more;
+ * the others are cut in four, the worst first.  Across an edge the error of n samples so falls as
+ * n^-3/2, that of a grid as n^-3/4. */
+#ifndef WRT_RENDER_CUBATURE_H
+#define WRT_RENDER_CUBATURE_H
+
+#include "math/vec3.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+    CUBATURE_SIDE = 32,                  /* finest cells along a side of the square */
+    CUBATURE_PLACES = 2 * CUBATURE_SIDE, /* steps of the lattice of samples along it */
+    CUBATURE_SAMPLES = 32 * 32,          /* most of them */
+    CUBATURE_CELLS = 1 + 3 * (CUBATURE_SAMPLES / 4),
+};
+
+struct cubature_place {
+    uint8_t x, y; /* from 0 to CUBATURE_PLACES */
+};
+
+struct cubature_cell {
+    struct cubature_place at; /* the lower left corner */
+    uint8_t size;             /* in steps of the lattice */
+    bool judged;              /* the rest is known */
+    struct vec3 mean;         /* times the cell's part of the square */
+    struct vec3 variance;     /* estimated, of that */
+};
+
+struct cubature {
+    bool noisy;                /* samples at one place differ */
+    uint32_t samples, settled; /* those from `settled` on are wanted */
+    uint32_t cells;
+    uint16_t number[CUBATURE_PLACES + 1][CUBATURE_PLACES + 1]; /* of the sample there, plus 1 */
+    struct cubature_place place[CUBATURE_SAMPLES];             /* where each sample is */
+    struct vec3 value[CUBATURE_SAMPLES];                       /* to be filled in by the caller */
+    struct cubature_cell cell[CUBATURE_CELLS];
+    struct vec3 mean, variance; /* of the square, where nothing is wanted */
+};
+
+/* Wants the samples of one cell, the whole square: its corners, of which the lower ones and then
+ * the left ones come first, and its middle. */
+void cubature_begin(struct cubature *c, bool noisy);
+/* Takes the wanted samples, whose values the caller has filled in. */
+void cubature_settle(struct cubature *c);
+/* Cuts every cell. */
+void cubature_cut_all(struct cubature *c);
+/* Cuts the cells that are worst, a channel's variance counting `weight` times; false when none can
+ * be cut. */
+bool cubature_refine(struct cubature *c, struct vec3 weight);
+
+#endif
