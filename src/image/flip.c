@@ -131,7 +131,7 @@ static const struct column_pass {
 enum { COLUMN_PASSES = sizeof column_passes / sizeof *column_passes };
 
 /* The contrast sensitivity of the eye as Gaussians a sqrt(pi/b) exp(-(pi d)^2/b) of the distance d
- * in degrees (section 4.1.1, table 1), `count` of them in kernels that follow each other.  Half of
+ * in degrees (section 4.1.1), `count` of them in kernels that follow each other.  Half of
  * each weight goes to the rows, half to the columns; the whole filter sums to 1. */
 static void make_sensitivity(double (*kernels)[TAPS], int count, const double a[], const double b[])
 {
