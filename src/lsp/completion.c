@@ -1,31 +1,12 @@
 /* What may be written at a place of a native text. */
 #include "config.h"
 
+#include "lsp/completion.h"
 #include "lsp/cursor.h"
 #include "lsp/locate.h"
-#include "lsp/server.h"
 
-#include "schema/describe.h"
-
-/* CompletionItemKind. */
-enum item_kind {
-    ITEM_FUNCTION = 3,
-    ITEM_VARIABLE = 6,
-    ITEM_CLASS = 7,
-    ITEM_PROPERTY = 10,
-    ITEM_VALUE = 12,
-    ITEM_KEYWORD = 14,
-    ITEM_CONSTANT = 21,
-};
-
-struct completion {
-    const struct wire_place *where;
-    struct cursor cursor;
-    enum schema_model model;
-    json_t *items;
-};
-
-static json_t *add(struct completion *c, struct str label, enum item_kind kind, const char *detail)
+json_t *completion_add(struct completion *c, struct str label, enum item_kind kind,
+                       const char *detail)
 {
     json_t *item = json_pack("{s:o, s:i}", "label", wire_text(label), "kind", (int)kind);
     if (*detail)
@@ -34,20 +15,31 @@ static json_t *add(struct completion *c, struct str label, enum item_kind kind, 
     return item;
 }
 
-static void add_words(struct completion *c, const char *words, enum item_kind kind,
-                      const char *detail)
+void completion_add_words(struct completion *c, const char *words, enum item_kind kind,
+                          const char *detail)
 {
     struct str word;
     for (unsigned i = 0; (word = str_nth_word(words, i)).n; i++)
-        add(c, word, kind, detail);
+        completion_add(c, word, kind, detail);
+}
+
+void completion_add_prop(struct completion *c, enum schema_prop_id id, struct str name,
+                         const char *before, const char *behind)
+{
+    bool required = schema_required(id, c->model);
+    struct buffer detail = {0}, text = {0};
+    describe_value(&detail, id, c->where->analysis->ast.xml);
+    buffer_printf(&detail, "%s%c", required ? ", required" : "", 0);
+    buffer_printf(&text, "%s%.*s%s", before, STR_ARG(name), behind);
+    json_t *item = completion_add(c, name, ITEM_PROPERTY, detail.at);
+    json_object_set_new(item, "documentation", json_string(schema_props[id].doc));
+    json_object_set_new(item, "insertText", wire_buffer(&text));
+    buffer_printf(&text, "%d%.*s", !required, STR_ARG(name));
+    json_object_set_new(item, "sortText", wire_buffer(&text));
+    buffer_free(&detail);
 }
 
 /* ---- the schema ------------------------------------------------------------------------------ */
-
-static bool exists(const struct completion *c, unsigned models)
-{
-    return models >> c->model & 1;
-}
 
 /* The kinds of a group by the word that tells them apart. */
 static void add_kinds(struct completion *c, enum schema_group group)
@@ -55,8 +47,8 @@ static void add_kinds(struct completion *c, enum schema_group group)
     for (int k = 0; k < SCHEMA_KINDS; k++) {
         const struct schema_kind_row *row = &schema_kinds[k];
         const char *space = strchr(row->native, ' ');
-        if (row->group == group && exists(c, row->models))
-            add(c, str_of(space ? space + 1 : row->native), ITEM_CLASS, row->doc);
+        if (row->group == group && completion_has(c, row->models))
+            completion_add(c, str_of(space ? space + 1 : row->native), ITEM_CLASS, row->doc);
     }
 }
 
@@ -69,36 +61,20 @@ static bool is_given(const struct completion *c, const char *name)
     return false;
 }
 
-/* Those that must be given come first. */
-static void add_prop(struct completion *c, enum schema_prop_id id)
-{
-    const struct schema_prop *p = &schema_props[id];
-    bool required = schema_required(id, c->model);
-    struct buffer detail = {0}, text = {0};
-    describe_value(&detail, id, false);
-    buffer_printf(&detail, "%s%c", required ? ", required" : "", 0);
-    buffer_printf(&text, "%s: ", p->native);
-    json_t *item = add(c, str_of(p->native), ITEM_PROPERTY, detail.at);
-    json_object_set_new(item, "documentation", json_string(p->doc));
-    json_object_set_new(item, "insertText", wire_buffer(&text));
-    buffer_printf(&text, "%d%s", !required, p->native);
-    json_object_set_new(item, "sortText", wire_buffer(&text));
-    buffer_free(&detail);
-}
-
 static void add_props(struct completion *c, enum schema_kind kind)
 {
     for (int p = 0; p < SCHEMA_PROPS; p++)
-        if (schema_has(kind, (enum schema_prop_id)p) && exists(c, schema_props[p].models) &&
+        if (schema_has(kind, (enum schema_prop_id)p) && completion_has(c, schema_props[p].models) &&
             !is_given(c, schema_props[p].native))
-            add_prop(c, (enum schema_prop_id)p);
+            completion_add_prop(c, (enum schema_prop_id)p, str_of(schema_props[p].native), "",
+                                ": ");
 }
 
 static void add_value_words(struct completion *c, enum schema_prop_id id)
 {
     struct str word;
     for (unsigned n = 0; (word = schema_word(id, n, false)).n; n++)
-        add(c, word, ITEM_VALUE, schema_props[id].doc);
+        completion_add(c, word, ITEM_VALUE, schema_props[id].doc);
 }
 
 /* ---- names ----------------------------------------------------------------------------------- */
@@ -127,17 +103,17 @@ static void add_names(struct completion *c, unsigned long long kinds)
         const struct name_def *d = &b->defs.at[i];
         bool wanted = kinds >> d->node->kind & 1;
         if (wanted && bindings_find(b, d->name, c->where->at, function) == i)
-            add(c, d->name, defs[d->node->kind].kind, defs[d->node->kind].words);
+            completion_add(c, d->name, defs[d->node->kind].kind, defs[d->node->kind].words);
     }
 }
 
 static void add_functions(struct completion *c)
 {
 #define FUNCTION(name, parameters, takes, required, more, doc) \
-    add(c, str_of(#name), ITEM_FUNCTION, doc);
+    completion_add(c, str_of(#name), ITEM_FUNCTION, doc);
 #include "eval/functions.def"
 #undef FUNCTION
-    add_words(c, "pi true false", ITEM_CONSTANT, "constant");
+    completion_add_words(c, "pi true false", ITEM_CONSTANT, "constant");
 }
 
 #define BIT(kind) (1ull << (kind))
@@ -176,11 +152,11 @@ static void complete_statement(struct completion *c)
     add_kinds(c, SCHEMA_PLACE);
     add_kinds(c, SCHEMA_CAMERA);
     add_kinds(c, SCHEMA_SETTINGS);
-    add_words(c, "light", ITEM_CLASS, "a light");
-    add_words(c, "let fn material texture define default include assert for if", ITEM_KEYWORD,
-              "keyword");
+    completion_add_words(c, "light", ITEM_CLASS, "a light");
+    completion_add_words(c, "let fn material texture define default include assert for if",
+                         ITEM_KEYWORD, "keyword");
     if (c->cursor.blocks.n == 1)
-        add_words(c, "wrt model param", ITEM_KEYWORD, "keyword");
+        completion_add_words(c, "wrt model param", ITEM_KEYWORD, "keyword");
     add_names(c, BIT(AST_DEFINE));
 }
 
@@ -196,7 +172,7 @@ static void complete_value(struct completion *c)
         return;
     case TYPE_SWITCH:
     case TYPE_NUMBER_OR_SWITCH:
-        add_words(c, "true false", ITEM_VALUE, "");
+        completion_add_words(c, "true false", ITEM_VALUE, "");
         add_names(c, variables);
         return;
     case TYPE_MATERIAL:
@@ -228,7 +204,7 @@ static void complete_default(struct completion *c)
     add_kinds(c, SCHEMA_SURFACE);
     add_kinds(c, SCHEMA_CAMERA);
     add_kinds(c, SCHEMA_SETTINGS);
-    add_words(c, "light", ITEM_CLASS, "a light");
+    completion_add_words(c, "light", ITEM_CLASS, "a light");
 }
 
 static void complete(struct completion *c)
@@ -246,7 +222,7 @@ static void complete(struct completion *c)
         add_kinds(c, SCHEMA_LIGHT);
         break;
     case CURSOR_MODEL:
-        add_words(c, "modern classic", ITEM_VALUE, "which arithmetic the scene means");
+        completion_add_words(c, "modern classic", ITEM_VALUE, "which arithmetic the scene means");
         break;
     case CURSOR_DEFAULT:
         complete_default(c);
@@ -261,9 +237,12 @@ json_t *lsp_completion(struct server *s, const json_t *params)
         return NULL;
     struct completion c = {.where = &place, .items = json_array()};
     c.model = place.analysis->desc.model;
-    if (place.analysis->ast.xml)
+    struct str text = {place.doc->text.at, place.doc->text.n};
+    if (place.analysis->ast.xml) {
+        complete_xml(&c, text, place.in_text);
         return c.items;
-    cursor_find(&c.cursor, (struct str){place.doc->text.at, place.doc->text.n}, place.in_text);
+    }
+    cursor_find(&c.cursor, text, place.in_text);
     complete(&c);
     cursor_free(&c.cursor);
     return c.items;

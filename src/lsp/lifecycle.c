@@ -27,16 +27,17 @@ static bool shows_related(const json_t *capabilities)
 
 static json_t *capabilities_of(const struct server *s)
 {
-    return json_pack(
-        "{s:s, s:{s:b, s:i, s:b}, s:b, s:{s:[s, s]}, s:b, s:b, s:b, s:b, s:{s:[s, s]}, s:{s:b}}",
-        "positionEncoding", position_encoding_names[s->encoding],         /* */
-        "textDocumentSync", "openClose", true, "change", 2, "save", true, /* 2: parts of texts */
-        "hoverProvider", true,                                            /* */
-        "completionProvider", "triggerCharacters", ":", " ",              /* */
-        "definitionProvider", true, "referencesProvider", true, "documentSymbolProvider", true,
-        "documentFormattingProvider", true,                                       /* */
-        "codeActionProvider", "codeActionKinds", "quickfix", "source.fixAll.wrt", /* */
-        "renameProvider", "prepareProvider", true);
+    return json_pack("{s:s, s:{s:b, s:i, s:b}, s:b, s:{s:[s, s, s, s]}, s:b, s:b, s:b, s:b, "
+                     "s:{s:[s, s]}, s:{s:b}}",
+                     "positionEncoding", position_encoding_names[s->encoding], /* */
+                     "textDocumentSync", "openClose", true, "change", 2, "save",
+                     true,                  /* 2: parts of texts */
+                     "hoverProvider", true, /* */
+                     "completionProvider", "triggerCharacters", ":", " ", "<", "\"", /* */
+                     "definitionProvider", true, "referencesProvider", true,
+                     "documentSymbolProvider", true, "documentFormattingProvider", true,       /* */
+                     "codeActionProvider", "codeActionKinds", "quickfix", "source.fixAll.wrt", /* */
+                     "renameProvider", "prepareProvider", true);
 }
 
 json_t *lsp_initialize(struct server *s, const json_t *params)

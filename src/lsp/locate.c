@@ -69,34 +69,49 @@ enum schema_kind locate_kind_of_def(const struct bindings *b, size_t def)
 
 /* ---- XML ------------------------------------------------------------------------------------- */
 
-static enum schema_kind kind_by_class(const struct ast_node *n, enum schema_group group)
-{
-    for (const struct ast_node *c = n->children; c; c = c->next)
-        if (c->kind == AST_ATTRIBUTE && str_is(c->name, "class"))
-            return schema_find_kind(group, str_trim(c->children->text), true);
-    return SCHEMA_KINDS;
-}
-
-static enum schema_kind kind_of_element(const struct ast_node *n, const struct ast_node *parent)
-{
-    static const struct {
-        const char *name; /* of the element, or of what is around it */
-        bool around;
-        enum schema_group group;
-        enum schema_kind kind; /* SCHEMA_KINDS: its class says */
-    } rows[] = {{"camera", false, SCHEMA_CAMERA, KIND_CAMERA},
+/* Elements by their name, or by that of what is around them. */
+static const struct element {
+    const char *name;
+    bool around;
+    enum schema_group group;
+    enum schema_kind kind; /* SCHEMA_KINDS: its class says */
+} elements[] = {{"camera", false, SCHEMA_CAMERA, KIND_CAMERA},
                 {"settings", false, SCHEMA_SETTINGS, KIND_SETTINGS},
                 {"textures", true, SCHEMA_TEXTURE, KIND_IMAGE},
                 {"lights", true, SCHEMA_LIGHT, SCHEMA_KINDS},
                 {"surfaces", true, SCHEMA_SURFACE, SCHEMA_KINDS},
                 {"object", false, SCHEMA_SURFACE, SCHEMA_KINDS},
                 {"material", false, SCHEMA_MATERIAL, SCHEMA_KINDS}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct ast_node *named = rows[i].around ? parent : n;
-        if (named && str_is(named->name, rows[i].name))
-            return rows[i].kind != SCHEMA_KINDS ? rows[i].kind : kind_by_class(n, rows[i].group);
-    }
-    return SCHEMA_KINDS;
+
+static const struct element *element_by_tags(struct str name, struct str around)
+{
+    for (size_t i = 0; i < sizeof elements / sizeof *elements; i++)
+        if (str_is(elements[i].around ? around : name, elements[i].name))
+            return &elements[i];
+    return NULL;
+}
+
+enum schema_group locate_group_by_tags(struct str name, struct str around)
+{
+    const struct element *e = element_by_tags(name, around);
+    return e ? e->group : SCHEMA_GROUPS;
+}
+
+enum schema_kind locate_kind_by_tags(struct str name, struct str around, struct str class)
+{
+    const struct element *e = element_by_tags(name, around);
+    if (!e || e->kind != SCHEMA_KINDS)
+        return e ? e->kind : SCHEMA_KINDS;
+    return schema_find_kind(e->group, class, true);
+}
+
+static enum schema_kind kind_of_element(const struct ast_node *n, const struct ast_node *parent)
+{
+    struct str class = {0};
+    for (const struct ast_node *c = n->children; c && !class.n; c = c->next)
+        if (c->kind == AST_ATTRIBUTE && str_is(c->name, "class"))
+            class = str_trim(c->children->text);
+    return locate_kind_by_tags(n->name, parent ? parent->name : (struct str){0}, class);
 }
 
 /* ---- both ------------------------------------------------------------------------------------ */

@@ -17,6 +17,11 @@ enum schema_kind locate_kind(const struct analysis *a, const struct locate_path 
 /* The kind that these words open: `sphere`, `light point`, `phong`; SCHEMA_KINDS: none. */
 enum schema_kind locate_kind_by_words(struct str first, struct str second);
 
+/* The kind that an XML element makes by its name, the name of the element around and its class, and
+ * what group it belongs to; SCHEMA_KINDS, SCHEMA_GROUPS: none. */
+enum schema_kind locate_kind_by_tags(struct str name, struct str around, struct str class);
+enum schema_group locate_group_by_tags(struct str name, struct str around);
+
 /* The kind of a material or texture that a definition gives, through those it is made from. */
 enum schema_kind locate_kind_of_def(const struct bindings *b, size_t def);
 
