@@ -230,36 +230,17 @@ static vmask enclosed_exactly(struct vpoint2 a, struct vpoint2 b, struct vpoint2
     return v_not(below & above) & v_less(zero, v_abs(u + v + w));
 }
 
-/* What the plain edge products say, and beyond which their signs are sure. */
-struct edges {
-    vreal least, most, sure;
-};
-
-static inline struct edges edges_of(struct vpoint2 a, struct vpoint2 b, struct vpoint2 c)
-{
-    vreal u1 = c.x * b.y, u2 = c.y * b.x, v1 = a.x * c.y, v2 = a.y * c.x;
-    vreal w1 = b.x * a.y, w2 = b.y * a.x, u = u1 - u2, v = v1 - v2, w = w1 - w2;
-    vreal largest =
-        v_max(v_max(v_abs(u1) + v_abs(u2), v_abs(v1) + v_abs(v2)), v_abs(w1) + v_abs(w2));
-    return (struct edges){v_min(v_min(u, v), w), v_max(v_max(u, v), w), 0x1p-50 * largest};
-}
-
-static inline vmask edges_surely_pass(struct edges e)
-{
-    return v_less(e.least, -e.sure) & v_less(e.sure, e.most);
-}
-
 /* The lanes whose rays the corners, seen from their origins, enclose. */
 static inline vmask meets_lines(const struct frame_batch *f, uint32_t i, const struct vvec3 seen[3],
                                 int axis)
 {
     struct vpoint2 a = sheared(f, i, seen[0], axis), b = sheared(f, i, seen[1], axis);
     struct vpoint2 c = sheared(f, i, seen[2], axis);
-    struct edges e = edges_of(a, b, c);
-    vmask passes = edges_surely_pass(e);
-    vmask meets = v_less(e.sure, e.least) | v_less(e.most, -e.sure);
+    vreal u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
+    vreal least = v_min(v_min(u, v), w), most = v_max(v_max(u, v), w), zero = v_all(0);
+    vmask passes = v_less(least, zero) & v_less(zero, most);
+    vmask meets = v_less(zero, least) | v_less(most, zero);
     vmask unsure = v_not(passes) & v_not(meets);
-    meets &= v_not(passes);
     return v_any(unsure) ? meets | (unsure & enclosed_exactly(a, b, c)) : meets;
 }
 

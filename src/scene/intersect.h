@@ -122,20 +122,18 @@ static inline double most_of_3(double a, double b, double c)
 }
 
 /* Watertight edge tests (Woop, Benthin, Wald, Watertight ray/triangle intersection, JCGT 2013) in
- * double.  Plain products decide wherever they are sure of their signs. */
+ * double.  Rounding keeps order: the difference of two rounded products is never of the wrong sign,
+ * and only where one is 0 have exact signs to decide. */
 static inline bool triangle_meets_axis(const struct seen_triangle *seen, const struct ray_frame *f,
                                        int axis)
 {
     struct point2 a = triangle_sheared(seen->a, f, axis), b = triangle_sheared(seen->b, f, axis);
     struct point2 c = triangle_sheared(seen->c, f, axis);
-    double u1 = c.x * b.y, u2 = c.y * b.x, v1 = a.x * c.y, v2 = a.y * c.x;
-    double w1 = b.x * a.y, w2 = b.y * a.x, u = u1 - u2, v_ = v1 - v2, w = w1 - w2;
-    double sure =
-        0x1p-50 * most_of_3(fabs(u1) + fabs(u2), fabs(v1) + fabs(v2), fabs(w1) + fabs(w2));
+    double u = c.x * b.y - c.y * b.x, v_ = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
     double least = least_of_3(u, v_, w), most = most_of_3(u, v_, w);
-    if (least < -sure && most > sure)
+    if (least < 0 && most > 0)
         return false;
-    return least > sure || most < -sure || triangle_encloses(a, b, c);
+    return least > 0 || most < 0 || triangle_encloses(a, b, c);
 }
 
 static inline bool triangle_meets_line(const struct seen_triangle *seen, const struct ray_frame *f)

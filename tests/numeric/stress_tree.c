@@ -257,11 +257,11 @@ static void try_kernels(struct dice *d, uint64_t cases, struct tally *tally)
 }
 
 const struct row rows_tree[] = {
-    {"tree and brute force: triangles, slivers, none", "", 0, 40000, 10000000, try_triangles,
+    {"tree and brute force: triangles, slivers, none", "", 0, 30000, 10000000, try_triangles,
      false},
     {"tree and brute force: spheres and cylinders", "", 0, 40000, 10000000, try_solids, false},
-    {"tree and brute force: meshes and instances", "", 0, 20000, 2000000, try_globes, false},
-    {"tree and brute force: instances", "", 0, 40000, 10000000, try_instances, false},
+    {"tree and brute force: meshes and instances", "", 0, 12000, 2000000, try_globes, false},
+    {"tree and brute force: instances", "", 0, 16000, 10000000, try_instances, false},
     {"1e5 equal triangles", "", 0, 4, 10000, try_equal, false},
     {"kernels of every instruction set, bit by bit", "", 0, 100000, 100000000, try_kernels, false},
     {0},
