@@ -230,16 +230,32 @@ static vmask enclosed_exactly(struct vpoint2 a, struct vpoint2 b, struct vpoint2
     return v_not(below & above) & v_less(zero, v_abs(u + v + w));
 }
 
+/* The least and the most of the edge functions by rounded products, whose signs are never wrong,
+ * though one may be 0. */
+struct edges {
+    vreal least, most;
+};
+
+static inline struct edges edges_of(struct vpoint2 a, struct vpoint2 b, struct vpoint2 c)
+{
+    vreal u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
+    return (struct edges){v_min(v_min(u, v), w), v_max(v_max(u, v), w)};
+}
+
+static inline vmask edges_surely_pass(struct edges e)
+{
+    return v_less(e.least, v_all(0)) & v_less(v_all(0), e.most);
+}
+
 /* The lanes whose rays the corners, seen from their origins, enclose. */
 static inline vmask meets_lines(const struct frame_batch *f, uint32_t i, const struct vvec3 seen[3],
                                 int axis)
 {
     struct vpoint2 a = sheared(f, i, seen[0], axis), b = sheared(f, i, seen[1], axis);
     struct vpoint2 c = sheared(f, i, seen[2], axis);
-    vreal u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
-    vreal least = v_min(v_min(u, v), w), most = v_max(v_max(u, v), w), zero = v_all(0);
-    vmask passes = v_less(least, zero) & v_less(zero, most);
-    vmask meets = v_less(zero, least) | v_less(most, zero);
+    struct edges e = edges_of(a, b, c);
+    vmask passes = edges_surely_pass(e);
+    vmask meets = v_less(v_all(0), e.least) | v_less(e.most, v_all(0));
     vmask unsure = v_not(passes) & v_not(meets);
     return v_any(unsure) ? meets | (unsure & enclosed_exactly(a, b, c)) : meets;
 }
