@@ -24,6 +24,7 @@ struct run {
     struct picture *picture;
     struct run_stats stats;
     struct progress progress;
+    double started; /* of thread_seconds() */
 };
 
 char *default_picture(const char *scene)
@@ -121,15 +122,16 @@ static int check_sampling(const struct options *o, const struct scene *scene)
     enum { MOST_CELLS = 16 };
     bool power_of_two = (o->grid & (o->grid - 1)) == 0;
     if (o->adaptive > 0 && (!power_of_two || o->grid > MOST_CELLS))
-        return usage_error("-s is 1, 2, 4, 8 or 16 with --adaptive, not %u", o->grid);
+        return usage_error("-s is 1, 2, 4, 8 or 16 with --adaptive and --time, not %u", o->grid);
     if (o->adaptive > 0 && o->jitter && scene->model == SCENE_CLASSIC)
         return usage_error("--adaptive places its samples itself, and in a classic scene --jitter "
                            "moves nothing else");
     if (o->adaptive > 0 && o->show != SHOW_PICTURE && o->show != SHOW_SAMPLES)
         return usage_error(
-            "--show takes one sample a pixel; of --adaptive, only samples are shown");
+            "--show takes one sample a pixel; of --adaptive and --time, only samples are shown");
     if (!(o->adaptive > 0) && o->show == SHOW_SAMPLES)
-        return usage_error("--show samples tells what --adaptive does, which is not given");
+        return usage_error(
+            "--show samples tells what --adaptive or --time does, and neither is given");
     return 0;
 }
 
@@ -171,6 +173,16 @@ static void describe_meshes(const struct run *r)
     }
 }
 
+/* When the picture has to be there for it to be written in time, by the seconds that writing takes
+ * for a pixel. */
+static double deadline(const struct run *r)
+{
+    static const double write_s[] = {
+        [PICTURE_PNG] = 40e-9, [PICTURE_PPM] = 3e-9, [PICTURE_PFM] = 12e-9};
+    double pixels = (double)r->picture->width * r->picture->height;
+    return r->started + r->options->time - write_s[r->format] * pixels;
+}
+
 static int load(struct run *r)
 {
     const struct options *o = r->options;
@@ -194,6 +206,7 @@ static void render(struct run *r)
     choose_sampling(r);
     r->picture = picture_new(width, height, r->format == PICTURE_PFM);
     r->picture->encoding = render_encoding(&r->lowered.scene, to->show);
+    to->deadline = r->options->time > 0 ? deadline(r) : 0;
     progress_begin(&r->progress, r->options->quiet, (unsigned long)width * height);
     to->progress.report = progress_report;
     to->progress.context = &r->progress;
@@ -218,7 +231,7 @@ static int write_picture(struct run *r)
 
 static int run_steps(struct run *r)
 {
-    double start = thread_seconds();
+    r->started = thread_seconds();
     int status = choose_format(r);
     if (status == 0)
         status = load(r);
@@ -233,7 +246,7 @@ static int run_steps(struct run *r)
         return status;
     render(r);
     status = write_picture(r);
-    r->stats.total_s = thread_seconds() - start;
+    r->stats.total_s = thread_seconds() - r->started;
     if (status == 0)
         stats_print_render(&r->stats, r->options, &r->lowered.scene);
     return status;

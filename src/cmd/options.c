@@ -89,6 +89,8 @@ static bool take_whole(const struct opt_row *row, const char *text, struct optio
     return right;
 }
 
+#define ADAPTIVE_ERROR (1.0 / 255)
+
 /* A number, or one divided by another. */
 static bool read_ratio(const char *text, double *out)
 {
@@ -104,11 +106,22 @@ static bool read_ratio(const char *text, double *out)
 
 static bool take_adaptive(const struct opt_row *row, const char *text, struct options *out)
 {
-    out->adaptive = 1.0 / 255;
+    out->adaptive = ADAPTIVE_ERROR;
     if (!text || (read_ratio(text, &out->adaptive) && out->adaptive > 0 && out->adaptive < 1))
         return true;
     usage_error("--%s takes an error between 0 and 1, as in 0.01 or 1/255, not '%s'", row->name,
                 text);
+    return false;
+}
+
+static bool take_time(const struct opt_row *row, const char *text, struct options *out)
+{
+    const char *end = text + strlen(text);
+    if (num_parse(text, end, &out->time) == end && out->time > 0 && out->time < INFINITY) {
+        out->adaptive = out->adaptive > 0 ? out->adaptive : ADAPTIVE_ERROR;
+        return true;
+    }
+    usage_error("--%s takes a number of seconds, not '%s'", row->name, text);
     return false;
 }
 

@@ -47,6 +47,7 @@ struct options {
     uint32_t crop[4];
     uint32_t grid;   /* 0: the scene's */
     double adaptive; /* 0: off */
+    double time;     /* seconds; 0: no limit */
     uint32_t depth;  /* or DEPTH_OF_SCENE */
     uint32_t threads;
     uint64_t seed;

@@ -53,9 +53,9 @@ static json_t *adaptive_json(const struct run_stats *s, const struct options *o)
     const struct adaptive_stats *a = &s->render.adaptive;
     if (!(o->adaptive > 0))
         return NULL;
-    return json_pack("{s:f, s:f, s:i, s:f, s:f}", "error", o->adaptive, "samples_mean",
+    return json_pack("{s:f, s:f, s:i, s:f, s:f, s:I}", "error", o->adaptive, "samples_mean",
                      samples_mean(s), "samples_max", (int)a->most, "estimated_error", a->error,
-                     "estimated_error_max", a->worst);
+                     "estimated_error_max", a->worst, "unfinished", (json_int_t)a->unfinished);
 }
 
 static void render_json(const struct run_stats *s, const struct options *o,
@@ -101,6 +101,8 @@ static void render_text(const struct run_stats *s, const struct options *o,
                 "adaptive   %u samples a pixel at most; estimated error %.2g, %.2g at most "
                 "(%.2g wanted)\n",
                 r->adaptive.most, r->adaptive.error, r->adaptive.worst, o->adaptive);
+    if (r->adaptive.unfinished > 0)
+        fprintf(stderr, "unfinished %llu pixels\n", (unsigned long long)r->adaptive.unfinished);
     fputs("scene      ", stderr);
     put_count(scene->surfaces.n, "surface", ", ");
     put_count(count_triangles(scene), "triangle", ", ");

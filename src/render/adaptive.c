@@ -1,334 +1,201 @@
 /* As many samples as each pixel needs.
  *
  * First the corners and middles of all pixels are sampled, and kept; then every pixel whose
- * estimated error is too large is cut into cells (see cubature.h).  A pixel asks nothing of its
- * neighbours but the shared corners, so neither tiles nor threads nor crops matter. */
+ * estimated error, or that of its neighbours, is too large is cut into cells (see cubature.h). What
+ * becomes of a pixel depends on the first samples within a row of pixels around it and on its own
+ * others, so neither tiles nor threads nor crops matter. */
 #include "config.h"
 
-#include "base/thread.h"
 #include "render/adaptive.h"
-#include "render/cubature.h"
-#include "render/samples.h"
 
-#include <stdatomic.h>
+#include "base/thread.h"
+#include "render/frame.h"
 
-/* What is kept of the samples that all pixels have. */
-struct colour {
-    float r, g, b;
-};
+/* ---- rays and time --------------------------------------------------------------------------- */
 
-/* What is found out of one pixel. */
-struct finding {
-    struct vec3 mean;
-    double error; /* the largest channel's standard error, as the picture stores it */
-    uint32_t samples;
-};
+bool frame_late(const struct frame *f, unsigned worker)
+{
+    return f->deadline < INFINITY && thread_seconds() + f->longest[worker] > f->deadline;
+}
 
-/* What is found out of a tile's pixels. */
-struct tally {
-    double squares, worst; /* of the pixels' errors: sum of squares, and the largest */
-    uint32_t most;         /* samples */
-};
-
-/* A pixel under way. */
-struct task {
-    struct cubature *cells;
-    uint32_t pixel; /* of the tile, row by row */
-};
-
-/* What a thread works with. */
-struct refiner {
-    struct worker *w;
-    struct cubature *cells[BATCH]; /* made when first needed */
-    struct task active[BATCH];
-    uint32_t n;
-    struct finding found[BATCH];
-    /* Samples to be traced together: */
-    struct vec3 *to[BATCH];
-    double x[BATCH_ROOM], y[BATCH_ROOM];
-    uint32_t queued;
-};
-
-struct frame {
-    const struct tracer *tracer;
-    struct worker **workers;
-    struct refiner *refiners; /* one a thread */
-    struct picture *out;
-    enum picture_encoding encoding; /* of light, whatever is shown */
-    struct tiling corners, pixels;
-    struct colour *corner, *middle; /* by row */
-    struct tally *tallies;          /* by tile of pixels */
-    atomic_size_t done;
-};
-
-static void report_progress(struct frame *f, unsigned worker)
+void frame_report(struct frame *f, unsigned worker)
 {
     const struct render_progress *p = &f->tracer->options->progress;
     size_t done = atomic_fetch_add_explicit(&f->done, 1, memory_order_relaxed) + 1;
-    if (worker == 0 && p->report)
-        p->report(p->context, (double)done / (double)(f->corners.n + 2 * f->pixels.n));
+    if (worker != 0 || !p->report)
+        return;
+    if (f->deadline < INFINITY)
+        p->report(p->context, (thread_seconds() - f->started) / (f->deadline - f->started));
+    else
+        p->report(p->context, (double)done / f->work);
 }
 
-/* ---- the samples of all pixels --------------------------------------------------------------- */
-
-/* Samples points of the tile: those (x, y) from each pixel's upper left corner, downwards. */
-static void sample_points(struct worker *w, const struct tile *tile, double x, double y)
+void frame_trace(struct frame *f, unsigned worker, double *x, double *y, uint32_t n)
 {
-    const struct render_options *o = w->tracer->options;
-    const struct camera *camera = &w->tracer->scene->camera;
-    double across[BATCH_ROOM], up[BATCH_ROOM];
-    uint32_t n = 0;
-    for (uint32_t j = tile->y0; j < tile->y1; j++) {
-        for (uint32_t i = tile->x0; i < tile->x1; i++, n++) {
-            across[n] = camera_place(camera, i + x, o->width);
-            up[n] = camera_place(camera, o->height - (j + y), o->height);
-        }
+    const struct render_options *o = f->tracer->options;
+    const struct camera *camera = &f->tracer->scene->camera;
+    struct worker *w = f->workers[worker];
+    double before = f->deadline < INFINITY ? thread_seconds() : 0;
+    for (uint32_t i = 0; i < n; i++) {
+        x[i] = camera_place(camera, f->x0 + x[i], o->width);
+        y[i] = camera_place(camera, o->height - (f->y0 + y[i]), o->height);
     }
     w->stats.primary += n;
-    trace_batch(w, 0, rays_through(w, across, up, n), NULL, &w->colours);
+    trace_batch(w, 0, rays_through(w, x, y, n), NULL, &w->colours);
+    if (f->deadline < INFINITY)
+        f->longest[worker] = fmax(f->longest[worker], thread_seconds() - before);
 }
 
-static void keep_points(const struct worker *w, const struct tile *tile, const struct tile *whole,
-                        struct colour *kept)
+/* Seconds that one thread takes for a pixel of the picture that the first samples give. */
+#define PICTURE_S 180e-9
+
+/* ---- the whole picture ----------------------------------------------------------------------- */
+
+/* The crop and a row of pixels around it, as far as there are any. */
+static void place_halo(struct frame *f)
 {
-    size_t columns = whole->x1 - whole->x0;
-    uint32_t n = 0;
-    for (uint32_t y = tile->y0; y < tile->y1; y++) {
-        struct colour *row = kept + (y - whole->y0) * columns;
-        for (uint32_t x = tile->x0; x < tile->x1; x++, n++)
-            row[x - whole->x0] = (struct colour){(float)w->colours.x[n], (float)w->colours.y[n],
-                                                 (float)w->colours.z[n]};
-    }
+    const struct render_options *o = f->tracer->options;
+    uint32_t x1 = o->crop.x1 + (o->crop.x1 < o->width), y1 = o->crop.y1 + (o->crop.y1 < o->height);
+    f->x0 = o->crop.x0 - (o->crop.x0 > 0);
+    f->y0 = o->crop.y0 - (o->crop.y0 > 0);
+    f->width = x1 - f->x0;
+    f->height = y1 - f->y0;
+    f->crop = (struct tile){o->crop.x0 - f->x0, o->crop.y0 - f->y0, o->crop.x1 - f->x0,
+                            o->crop.y1 - f->y0};
+    f->tiling = tiling_of(f->crop.x0, f->crop.y0, f->crop.x1, f->crop.y1);
 }
 
-static void sample_corners(void *context, size_t number, unsigned worker)
-{
-    struct frame *f = context;
-    struct tile tile = tiling_at(&f->corners, number);
-    sample_points(f->workers[worker], &tile, 0, 0);
-    keep_points(f->workers[worker], &tile, &f->corners.whole, f->corner);
-    report_progress(f, worker);
-}
-
-static void sample_middles(void *context, size_t number, unsigned worker)
-{
-    struct frame *f = context;
-    struct tile tile = tiling_at(&f->pixels, number);
-    sample_points(f->workers[worker], &tile, 0.5, 0.5);
-    keep_points(f->workers[worker], &tile, &f->pixels.whole, f->middle);
-    report_progress(f, worker);
-}
-
-/* ---- one pixel ------------------------------------------------------------------------------- */
-
-/* Half the way from a standard error below the mean to one above, as the picture stores channels.
- */
-static double stored_error(const struct frame *f, double mean, double variance)
-{
-    double error = variance > 0 ? sqrt(variance) : 0;
-    if (f->out->floats)
-        return error;
-    enum picture_encoding e = f->encoding;
-    return 0.5 * (picture_channel(e, mean + error) - picture_channel(e, mean - error));
-}
-
-static struct vec3 stored_errors(const struct frame *f, const struct cubature *c)
-{
-    return vec3(stored_error(f, c->mean.x, c->variance.x),
-                stored_error(f, c->mean.y, c->variance.y),
-                stored_error(f, c->mean.z, c->variance.z));
-}
-
-/* By how much the picture stretches errors of a channel, squared. */
-static double stretch(double stored, double variance)
-{
-    return variance > 0 ? stored * stored / variance : 0;
-}
-
-/* Cuts a pixel in as many cells as all have at least, and then the worst of it while its error is
- * too large; false when it is done. */
-static bool refine(const struct frame *f, struct cubature *c)
-{
-    uint32_t grid = f->tracer->options->grid;
-    if (c->cells < grid * grid) {
-        cubature_cut_all(c);
-        return true;
-    }
-    struct vec3 e = stored_errors(f, c);
-    if (!(fmax(e.x, fmax(e.y, e.z)) > f->tracer->options->adaptive))
-        return false;
-    struct vec3 weight =
-        vec3(stretch(e.x, c->variance.x), stretch(e.y, c->variance.y), stretch(e.z, c->variance.z));
-    return cubature_refine(c, weight);
-}
-
-static struct vec3 kept(const struct colour *c)
-{
-    return vec3(c->r, c->g, c->b);
-}
-
-/* Gives the pixel its first samples. */
-static void start_pixel(const struct frame *f, uint32_t x, uint32_t y, struct cubature *c)
-{
-    const struct tile *whole = &f->pixels.whole;
-    size_t columns = whole->x1 - whole->x0, column = x - whole->x0, row = y - whole->y0;
-    const struct colour *upper = f->corner + row * (columns + 1) + column;
-    const struct colour *lower = upper + columns + 1;
-    cubature_begin(c, f->tracer->options->jitter);
-    c->value[0] = kept(lower);
-    c->value[1] = kept(lower + 1);
-    c->value[2] = kept(upper);
-    c->value[3] = kept(upper + 1);
-    c->value[4] = kept(f->middle + row * columns + column);
-    cubature_settle(c);
-}
-
-/* ---- the pixels of a tile -------------------------------------------------------------------- */
-
-static void trace_queued(struct refiner *r)
-{
-    struct worker *w = r->w;
-    if (r->queued == 0)
-        return;
-    w->stats.primary += r->queued;
-    trace_batch(w, 0, rays_through(w, r->x, r->y, r->queued), NULL, &w->colours);
-    for (uint32_t i = 0; i < r->queued; i++)
-        *r->to[i] = vec3_get(&w->colours, i);
-    r->queued = 0;
-}
-
-/* Puts all that is wanted of the pixel (x, y from the top) into the queue. */
-static void queue_wanted(struct refiner *r, struct cubature *c, uint32_t x, uint32_t y)
-{
-    const struct render_options *o = r->w->tracer->options;
-    const struct camera *camera = &r->w->tracer->scene->camera;
-    for (uint32_t k = c->settled; k < c->samples; k++) {
-        uint32_t i = r->queued++;
-        double across = (double)c->place[k].x / CUBATURE_PLACES;
-        double up = (double)c->place[k].y / CUBATURE_PLACES;
-        r->x[i] = camera_place(camera, x + across, o->width);
-        r->y[i] = camera_place(camera, o->height - 1 - y + up, o->height);
-        r->to[i] = &c->value[k];
-        if (r->queued == BATCH)
-            trace_queued(r);
-    }
-}
-
-static void note_finding(const struct frame *f, struct refiner *r, const struct task *task)
-{
-    const struct cubature *c = task->cells;
-    struct vec3 e = stored_errors(f, c);
-    r->found[task->pixel] = (struct finding){c->mean, fmax(e.x, fmax(e.y, e.z)), c->samples};
-}
-
-/* One more round of cuts; pixels that need none are done. */
-static void refine_active(struct frame *f, struct refiner *r, const struct tile *tile)
-{
-    uint32_t left = 0, columns = tile->x1 - tile->x0;
-    for (uint32_t i = 0; i < r->n; i++) {
-        struct task task = r->active[i];
-        if (!refine(f, task.cells)) {
-            note_finding(f, r, &task);
-            continue;
-        }
-        queue_wanted(r, task.cells, tile->x0 + task.pixel % columns,
-                     tile->y0 + task.pixel / columns);
-        r->active[i] = r->active[left];
-        r->active[left++] = task;
-    }
-    trace_queued(r);
-    r->n = left;
-    for (uint32_t i = 0; i < left; i++)
-        cubature_settle(r->active[i].cells);
-}
-
-static void refine_pixels(struct frame *f, struct refiner *r, const struct tile *tile)
-{
-    r->n = 0;
-    for (uint32_t y = tile->y0, pixel = 0; y < tile->y1; y++) {
-        for (uint32_t x = tile->x0; x < tile->x1; x++, pixel++) {
-            if (!r->cells[pixel])
-                r->cells[pixel] = mem_alloc(1, sizeof **r->cells);
-            start_pixel(f, x, y, r->cells[pixel]);
-            r->active[r->n++] = (struct task){r->cells[pixel], pixel};
-        }
-    }
-    while (r->n > 0)
-        refine_active(f, r, tile);
-}
-
-/* How many samples a pixel took, by the logarithm: from 5, dark blue, over cyan, yellow and red to
- * the most, white; as floats the number itself. */
-static struct vec3 heat(uint32_t samples, bool bytes)
-{
-    enum { FEWEST = 5, STEPS = 4 };
-    static const struct vec3 colour[STEPS + 1] = {
-        {0, 0, 0.4}, {0, 0.7, 0.9}, {1, 0.9, 0}, {0.9, 0, 0}, {1, 1, 1}};
-    if (!bytes)
-        return vec3_all(samples);
-    double t = STEPS * log((double)samples / FEWEST) / log((double)CUBATURE_SAMPLES / FEWEST);
-    int i = t < STEPS - 1 ? (int)t : STEPS - 1;
-    return vec3_mad(colour[i], t - i, vec3_sub(colour[i + 1], colour[i]));
-}
-
-static struct vec3 shown(const struct frame *f, const struct finding *found)
-{
-    bool samples = f->tracer->options->show == SHOW_SAMPLES;
-    return samples ? heat(found->samples, f->out->bytes != NULL) : found->mean;
-}
-
-static void refine_tile(void *context, size_t number, unsigned worker)
-{
-    struct frame *f = context;
-    struct refiner *r = &f->refiners[worker];
-    struct tile tile = tiling_at(&f->pixels, number);
-    struct tally *tally = &f->tallies[number];
-    uint32_t n = 0;
-    refine_pixels(f, r, &tile);
-    *tally = (struct tally){0};
-    for (uint32_t y = tile.y0; y < tile.y1; y++) {
-        for (uint32_t x = tile.x0; x < tile.x1; x++) {
-            const struct finding *found = &r->found[n++];
-            picture_set(f->out, x - f->pixels.whole.x0, y - f->pixels.whole.y0, shown(f, found));
-            tally->squares += found->error * found->error;
-            tally->worst = fmax(tally->worst, found->error);
-            tally->most = found->samples > tally->most ? found->samples : tally->most;
-        }
-    }
-    report_progress(f, worker);
-}
-
-void render_adaptive(const struct tracer *t, struct worker **workers, struct picture *out,
-                     struct adaptive_stats *stats)
+static struct frame *frame_new(const struct tracer *t, struct worker **workers, struct picture *out)
 {
     const struct render_options *o = t->options;
-    struct frame f = {.tracer = t, .workers = workers, .out = out};
-    f.encoding = render_encoding(t->scene, SHOW_PICTURE);
-    f.corners = tiling_of(o->crop.x0, o->crop.y0, o->crop.x1 + 1, o->crop.y1 + 1);
-    f.pixels = tiling_of(o->crop.x0, o->crop.y0, o->crop.x1, o->crop.y1);
-    size_t width = o->crop.x1 - o->crop.x0, height = o->crop.y1 - o->crop.y0;
-    f.corner = mem_alloc((width + 1) * (height + 1), sizeof *f.corner);
-    f.middle = mem_alloc(width * height, sizeof *f.middle);
-    f.tallies = mem_alloc(f.pixels.n, sizeof *f.tallies);
-    f.refiners = mem_zalloc(o->threads, sizeof *f.refiners);
-    for (unsigned i = 0; i < o->threads; i++)
-        f.refiners[i].w = workers[i];
-    thread_share(f.corners.n, o->threads, sample_corners, &f);
-    thread_share(f.pixels.n, o->threads, sample_middles, &f);
-    thread_share(f.pixels.n, o->threads, refine_tile, &f);
-    *stats = (struct adaptive_stats){0};
-    double squares = 0;
-    for (size_t i = 0; i < f.pixels.n; i++) {
-        squares += f.tallies[i].squares;
-        stats->worst = fmax(stats->worst, f.tallies[i].worst);
-        stats->most = f.tallies[i].most > stats->most ? f.tallies[i].most : stats->most;
+    struct frame *f = mem_zalloc(1, sizeof *f);
+    *f = (struct frame){.tracer = t, .workers = workers, .out = out};
+    f->encoding = render_encoding(t->scene, SHOW_PICTURE);
+    place_halo(f);
+    size_t pixels = (size_t)f->width * f->height;
+    f->middle = mem_zalloc(pixels, sizeof *f->middle);
+    f->corner = mem_zalloc(((size_t)f->width + 1) * ((size_t)f->height + 1), sizeof *f->corner);
+    f->first_error = mem_alloc(pixels, sizeof *f->first_error);
+    f->error = mem_alloc(pixels, sizeof *f->error);
+    f->refined = mem_zalloc(pixels, sizeof *f->refined);
+    for (size_t i = 0; i < pixels; i++)
+        f->error[i] = INFINITY;
+    f->tallies = mem_zalloc(f->tiling.n, sizeof *f->tallies);
+    f->order = mem_alloc(f->tiling.n, sizeof *f->order);
+    for (size_t i = 0; i < f->tiling.n; i++)
+        f->order[i] = i;
+    f->refiners = mem_zalloc(o->threads, sizeof(struct refiner *));
+    f->longest = mem_zalloc(o->threads, sizeof *f->longest);
+    f->started = thread_seconds();
+    f->deadline =
+        o->deadline > 0 ? o->deadline - PICTURE_S * (double)pixels / o->threads : INFINITY;
+    f->work = (double)f->tiling.n * 3;
+    return f;
+}
+
+static void frame_free(struct frame *f)
+{
+    for (unsigned i = 0; i < f->tracer->options->threads; i++)
+        refiner_free(f->refiners[i]);
+    free(f->refiners);
+    free(f->longest);
+    free(f->order);
+    free(f->tallies);
+    free(f->refined);
+    free(f->error);
+    free(f->first_error);
+    free(f->corner);
+    free(f->middle);
+    free(f);
+}
+
+static void refine_tiles(struct frame *f, double target, size_t tiles)
+{
+    f->target = target;
+    thread_share(tiles, f->tracer->options->threads, refine_tile, f);
+}
+
+/* ---- in a limited time ----------------------------------------------------------------------- */
+
+/* How much there is to gain by a tile; more than of any known where not all of it is known. */
+struct rank {
+    size_t tile;
+    double gain;
+};
+
+static int compare_ranks(const void *a, const void *b)
+{
+    const struct rank *p = a, *q = b;
+    if (p->gain != q->gain)
+        return p->gain < q->gain ? 1 : -1;
+    return p->tile < q->tile ? -1 : p->tile > q->tile;
+}
+
+/* Orders the tiles that have errors above the target, the worst first; returns their number. */
+static size_t order_tiles(struct frame *f, double target)
+{
+    struct rank *ranks = mem_alloc(f->tiling.n, sizeof *ranks);
+    size_t n = 0;
+    for (size_t i = 0; i < f->tiling.n; i++) {
+        const struct tally *t = &f->tallies[i];
+        if (t->unknown > 0 || t->doubt > target)
+            ranks[n++] = (struct rank){i, t->unknown > 0 ? INFINITY : t->squares};
     }
-    stats->error = sqrt(squares / ((double)width * (double)height));
-    for (unsigned i = 0; i < o->threads; i++)
-        for (unsigned k = 0; k < BATCH; k++)
-            free(f.refiners[i].cells[k]);
-    free(f.refiners);
-    free(f.tallies);
-    free(f.middle);
-    free(f.corner);
+    qsort(ranks, n, sizeof *ranks, compare_ranks);
+    for (size_t i = 0; i < n; i++)
+        f->order[i] = ranks[i].tile;
+    free(ranks);
+    return n;
+}
+
+/* Ever more of the picture, until the time is over: a pixel of each block, all of them, their
+ * corners, and then lower and lower errors, so that what is unfinished lies about evenly.  What is
+ * done over again at each step costs less than the step itself. */
+static void render_until(struct frame *f)
+{
+    enum { COARSEST = 64, STEP = 4 };
+    double wanted = f->tracer->options->adaptive;
+    for (uint32_t stride = COARSEST; stride > 0; stride /= 2)
+        first_middles(f, stride, stride < COARSEST);
+    first_corners(f);
+    first_errors(f);
+    refine_tiles(f, INFINITY, f->tiling.n);
+    for (double target = 1.0 / STEP;; target = fmax(target / STEP, wanted)) {
+        refine_tiles(f, target, order_tiles(f, target));
+        if (target <= wanted || frame_late(f, 0))
+            break;
+    }
+}
+
+static struct adaptive_stats frame_stats(const struct frame *f)
+{
+    struct adaptive_stats stats = {0};
+    double squares = 0, known = (double)f->out->width * f->out->height;
+    for (size_t i = 0; i < f->tiling.n; i++) {
+        const struct tally *t = &f->tallies[i];
+        squares += t->squares;
+        known -= t->unknown;
+        stats.unfinished += t->unknown;
+        stats.worst = fmax(stats.worst, t->worst);
+        stats.most = t->most > stats.most ? t->most : stats.most;
+    }
+    stats.error = known > 0 ? sqrt(squares / known) : 1;
+    return stats;
+}
+
+struct adaptive_stats render_adaptive(const struct tracer *t, struct worker **workers,
+                                      struct picture *out)
+{
+    struct frame *f = frame_new(t, workers, out);
+    if (f->deadline < INFINITY) {
+        render_until(f);
+    } else {
+        first_middles(f, 1, false);
+        first_corners(f);
+        first_errors(f);
+        refine_tiles(f, t->options->adaptive, f->tiling.n);
+    }
+    struct adaptive_stats stats = frame_stats(f);
+    frame_free(f);
+    return stats;
 }

@@ -4,7 +4,7 @@
 #include "render/tracer.h"
 
 /* Renders the crop by samples where they are needed; a worker for each thread. */
-void render_adaptive(const struct tracer *t, struct worker **workers, struct picture *out,
-                     struct adaptive_stats *stats);
+struct adaptive_stats render_adaptive(const struct tracer *t, struct worker **workers,
+                                      struct picture *out);
 
 #endif

@@ -54,9 +54,16 @@ static struct judgement judge_noise(const struct five *f)
     return judged(f, 0.5, sqrt(squares / 4 * (0.25 + 0.25 / 4)));
 }
 
-static uint32_t number_at(const struct cubature *c, uint32_t x, uint32_t y)
+struct estimate cubature_estimate(const struct vec3 corner[4], struct vec3 middle, bool noisy)
 {
-    return c->number[y][x] - 1u;
+    const struct vec3 *k = corner;
+    struct five r = {{k[0].x, k[1].x, k[2].x, k[3].x}, middle.x};
+    struct five g = {{k[0].y, k[1].y, k[2].y, k[3].y}, middle.y};
+    struct five b = {{k[0].z, k[1].z, k[2].z, k[3].z}, middle.z};
+    struct judgement (*rule)(const struct five *) = noisy ? judge_noise : judge;
+    struct judgement red = rule(&r), green = rule(&g), blue = rule(&b);
+    struct vec3 error = vec3(red.error, green.error, blue.error);
+    return (struct estimate){vec3(red.mean, green.mean, blue.mean), vec3_mul(error, error)};
 }
 
 static void want(struct cubature *c, uint32_t x, uint32_t y)
@@ -86,38 +93,35 @@ void cubature_begin(struct cubature *c, bool noisy)
     add_cell(c, 0, 0, CUBATURE_PLACES);
 }
 
+static struct vec3 value_at(const struct cubature *c, uint32_t x, uint32_t y)
+{
+    return c->value[c->number[y][x] - 1];
+}
+
 static void judge_cell(const struct cubature *c, struct cubature_cell *cell)
 {
     uint32_t x = cell->at.x, y = cell->at.y, size = cell->size;
-    const struct vec3 *corner[4] = {
-        &c->value[number_at(c, x, y)],
-        &c->value[number_at(c, x + size, y)],
-        &c->value[number_at(c, x, y + size)],
-        &c->value[number_at(c, x + size, y + size)],
-    };
-    const struct vec3 *middle = &c->value[number_at(c, x + size / 2, y + size / 2)];
-    struct five r = {{corner[0]->x, corner[1]->x, corner[2]->x, corner[3]->x}, middle->x};
-    struct five g = {{corner[0]->y, corner[1]->y, corner[2]->y, corner[3]->y}, middle->y};
-    struct five b = {{corner[0]->z, corner[1]->z, corner[2]->z, corner[3]->z}, middle->z};
-    struct judgement (*rule)(const struct five *) = c->noisy ? judge_noise : judge;
-    struct judgement red = rule(&r), green = rule(&g), blue = rule(&b);
-    struct vec3 error = vec3(red.error, green.error, blue.error);
+    struct vec3 corner[4] = {value_at(c, x, y), value_at(c, x + size, y), value_at(c, x, y + size),
+                             value_at(c, x + size, y + size)};
+    struct estimate e =
+        cubature_estimate(corner, value_at(c, x + size / 2, y + size / 2), c->noisy);
     double side = (double)size / CUBATURE_PLACES, part = side * side;
-    cell->mean = vec3_scale(vec3(red.mean, green.mean, blue.mean), part);
-    cell->variance = vec3_scale(vec3_mul(error, error), part * part);
+    cell->share.mean = vec3_scale(e.mean, part);
+    cell->share.variance = vec3_scale(e.variance, part * part);
     cell->judged = true;
 }
 
 void cubature_settle(struct cubature *c)
 {
+    struct estimate sum = {vec3_all(0), vec3_all(0)};
     c->settled = c->samples;
-    c->mean = c->variance = vec3_all(0);
     for (uint32_t i = 0; i < c->cells; i++) {
         if (!c->cell[i].judged)
             judge_cell(c, &c->cell[i]);
-        c->mean = vec3_add(c->mean, c->cell[i].mean);
-        c->variance = vec3_add(c->variance, c->cell[i].variance);
+        sum.mean = vec3_add(sum.mean, c->cell[i].share.mean);
+        sum.variance = vec3_add(sum.variance, c->cell[i].share.variance);
     }
+    c->whole = sum;
 }
 
 /* A cell's quarters, the last of which takes its place. */
@@ -142,7 +146,7 @@ static double badness(const struct cubature_cell *cell, struct vec3 weight)
 {
     if (cell->size <= CUBATURE_PLACES / CUBATURE_SIDE)
         return 0;
-    struct vec3 v = vec3_mul(cell->variance, weight);
+    struct vec3 v = vec3_mul(cell->share.variance, weight);
     return fmax(v.x, fmax(v.y, v.z));
 }
 

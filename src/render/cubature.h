@@ -24,27 +24,34 @@ struct cubature_place {
     uint8_t x, y; /* from 0 to CUBATURE_PLACES */
 };
 
+/* A mean, and the variance that it is estimated to have. */
+struct estimate {
+    struct vec3 mean, variance;
+};
+
 struct cubature_cell {
     struct cubature_place at; /* the lower left corner */
     uint8_t size;             /* in steps of the lattice */
     bool judged;              /* the rest is known */
-    struct vec3 mean;         /* times the cell's part of the square */
-    struct vec3 variance;     /* estimated, of that */
+    struct estimate share;    /* of the cell in the mean of the square */
 };
 
 struct cubature {
-    bool noisy;                /* samples at one place differ */
+    bool noisy;
     uint32_t samples, settled; /* those from `settled` on are wanted */
     uint32_t cells;
     uint16_t number[CUBATURE_PLACES + 1][CUBATURE_PLACES + 1]; /* of the sample there, plus 1 */
     struct cubature_place place[CUBATURE_SAMPLES];             /* where each sample is */
     struct vec3 value[CUBATURE_SAMPLES];                       /* to be filled in by the caller */
     struct cubature_cell cell[CUBATURE_CELLS];
-    struct vec3 mean, variance; /* of the square, where nothing is wanted */
+    struct estimate whole; /* where nothing is wanted */
 };
 
-/* Wants the samples of one cell, the whole square: its corners, of which the lower ones and then
- * the left ones come first, and its middle. */
+/* Of a cell with these samples: corners, of which the lower ones and then the left ones come first,
+ * and the middle; noisy: samples at one place differ. */
+struct estimate cubature_estimate(const struct vec3 corner[4], struct vec3 middle, bool noisy);
+
+/* Wants the samples of one cell, the whole square, in that order. */
 void cubature_begin(struct cubature *c, bool noisy);
 /* Takes the wanted samples, whose values the caller has filled in. */
 void cubature_settle(struct cubature *c);

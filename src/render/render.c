@@ -183,7 +183,7 @@ void render_scene(const struct scene *scene, const struct render_options *option
     *stats = (struct render_stats){.build_s = built - started};
     job.tiling = tiling_of(options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
     if (options->adaptive > 0)
-        render_adaptive(&tracer, job.workers, out, &stats->adaptive);
+        stats->adaptive = render_adaptive(&tracer, job.workers, out);
     else
         thread_share(job.tiling.n, options->threads, render_tile, &job);
     stats->render_s = thread_seconds() - built;

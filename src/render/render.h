@@ -25,6 +25,7 @@ struct render_options {
     } crop;          /* pixels, top left origin, x1 and y1 outside */
     uint32_t grid;   /* grid x grid samples a pixel, >= 1; adaptive: cells, a power of two */
     double adaptive; /* samples go on until the standard error is below it; 0: they do not */
+    double deadline; /* adaptive: of thread_seconds(), by then the picture is there; 0: none */
     bool jitter;
     uint64_t seed;
     uint32_t depth;   /* rays deeper than this are black; the original's 3 */
@@ -43,6 +44,7 @@ enum skip_reason { SKIP_OPEN, SKIP_UMBRA, SKIP_DUPLICATE, SKIP_REASONS };
 struct adaptive_stats {
     double error, worst; /* estimated standard errors of the pixels: root mean square, largest */
     uint32_t most;       /* samples of one pixel */
+    uint64_t unfinished; /* pixels whose error is not known, for lack of time */
 };
 
 struct render_stats {
@@ -61,7 +63,7 @@ static inline uint64_t shadow_rays_skipped(const struct render_stats *s)
 enum picture_encoding render_encoding(const struct scene *scene, enum render_show show);
 
 /* Renders the crop of the picture into `out` (made by picture_new with the crop's size).  The bytes
- * do not depend on threads, crop, brute_force or no_skip. */
+ * do not depend on threads, crop, brute_force or no_skip; with a deadline they do. */
 void render_scene(const struct scene *scene, const struct render_options *options,
                   struct picture *out, struct render_stats *stats);
 
