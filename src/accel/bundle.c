@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "accel/bundle.h"
+#include "accel/wide.h"
 
 const struct bundle_kernels *bundle_kernels_of(enum isa isa)
 {
@@ -15,6 +16,23 @@ const struct bundle_kernels *bundle_kernels_of(enum isa isa)
     return kernels[isa];
 }
 
+/* Of triangles, where a tile of the picture is expected to hold more than a list does. */
+enum { MANY_BLOCKS = 32 };
+
+bool bundle_needs_no_lists(const struct accel *a)
+{
+    return a->wide && a->wide->block_count >= MANY_BLOCKS;
+}
+
+/* Fewer rays are traced one after another. */
+enum { PACKET_LEAST = 4 };
+
+static bool as_packet(const struct accel *a, const struct ray_batch *rays, bool any,
+                      struct hit_batch *hits)
+{
+    return a->wide && rays->n >= PACKET_LEAST && a->wide->kernels->packet(a, rays, any, hits);
+}
+
 void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
                     const struct ray_batch *rays, const struct target_list *list,
                     struct hit_batch *hits)
@@ -23,6 +41,8 @@ void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
         kernels->closest(a->geometry, rays, list, hits);
         return;
     }
+    if (as_packet(a, rays, false, hits))
+        return;
     for (uint32_t i = 0; i < rays->n; i++) {
         struct ray ray = ray_get(rays, i);
         struct hit hit;
@@ -35,8 +55,10 @@ void bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
                 const struct ray_batch *rays, const struct target_list *list, bool *blocked)
 {
     struct hit_batch hits;
-    if (list->usable) {
+    bool found = list->usable;
+    if (found)
         kernels->any(a->geometry, rays, list, &hits);
+    if (found || as_packet(a, rays, true, &hits)) {
         for (uint32_t i = 0; i < rays->n; i++)
             blocked[i] = hits.prim[i] != PRIM_NONE;
         return;

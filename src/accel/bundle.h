@@ -31,6 +31,9 @@ extern const struct bundle_kernels bundle_plain, bundle_generic, bundle_avx2, bu
 /* Those of an available instruction set. */
 const struct bundle_kernels *bundle_kernels_of(enum isa isa);
 
+/* Whether lists are hardly ever short, so that batches had better be traced without. */
+bool bundle_needs_no_lists(const struct accel *a);
+
 /* accel_closest for all rays, which can hit nothing but the list's targets. */
 void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
                     const struct ray_batch *rays, const struct target_list *list,

@@ -1,7 +1,5 @@
 #include "config.h"
 
 #define BUNDLE_KERNELS bundle_generic
-#include "accel/bundle_lanes.h"
-
 #define WIDE_KERNELS wide_generic
-#include "accel/wide_lanes.h"
+#include "accel/packet_lanes.h"

@@ -1,5 +1,4 @@
-/* The body of a vector kernel: included once by the file of each instruction set, which sets
- * BUNDLE_KERNELS to the name of its table.
+/* Batches of rays against lists.
  *
  * Each test is that of scene/intersect.h for a vector of rays, with the same operations in the same
  * order; where that returns early, a mask says which lanes go on. */
@@ -20,6 +19,25 @@ struct frame_batch {
     alignas(64) double axis_of[BATCH_ROOM];
     alignas(64) double shear_x[BATCH_ROOM], shear_y[BATCH_ROOM];
 };
+
+/* Rays are culled in parts of so many. */
+enum { PART = 8, PARTS = BATCH / PART, ALL_PARTS = (1 << PARTS) - 1 };
+
+/* The next whole vector from i on that belongs to one of the parts, of which the passed ones are
+ * taken away; f->n when there is none. */
+static inline uint32_t next_lanes(const struct frame_batch *f, unsigned *parts, uint32_t i)
+{
+    if (i % PART != 0)
+        return i;
+    *parts = i ? *parts & (*parts - 1) : *parts;
+    return *parts ? PART * (uint32_t)__builtin_ctz(*parts) : f->n;
+}
+
+/* All that there are. */
+static inline unsigned parts_of_rays(const struct frame_batch *f)
+{
+    return ALL_PARTS >> (PARTS - (f->n + PART - 1) / PART);
+}
 
 static void frames_for_spheres(struct frame_batch *f)
 {
@@ -48,11 +66,11 @@ static void frames_for_triangles(struct frame_batch *f)
     f->axis = axes != 1 ? -1 : any_x ? 0 : any_y ? 1 : 2;
 }
 
+/* With the parts for spheres, for triangles, or both. */
 static void frames_init(struct frame_batch *f, const struct geometry *g,
-                        const struct ray_batch *rays, const struct target_list *list,
+                        const struct ray_batch *rays, bool spheres, bool triangles,
                         struct hit_batch *hits)
 {
-    bool has[PRIM_KINDS] = {false};
     f->geometry = g;
     f->rays = rays;
     f->hits = hits;
@@ -66,26 +84,25 @@ static void frames_init(struct frame_batch *f, const struct geometry *g,
         v_store(hits->prim + i, v_all(PRIM_NONE));
         v_store(hits->part + i, v_all(0));
     }
-    for (uint32_t i = 0; i < list->n; i++)
-        has[list->at[i].kind] = true;
-    if (has[PRIM_SPHERE])
+    if (spheres)
         frames_for_spheres(f);
-    if (has[PRIM_TRIANGLE])
+    if (triangles)
         frames_for_triangles(f);
 }
 
-/* The hits at t, where they come before the best. */
-static inline void offer(struct frame_batch *f, uint32_t i, vreal t, uint32_t prim, vreal part)
+/* The hits at t, where they come before the best; whether any does. */
+static inline bool offer(struct frame_batch *f, uint32_t i, vreal t, uint32_t prim, vreal part)
 {
     struct hit_batch *hits = f->hits;
     vreal best = v_load(hits->t + i), of = v_load(hits->prim + i), number = v_all(prim);
     vmask better =
         v_less(v_all(0), t) & (v_less(t, best) | (v_equal(t, best) & v_less(number, of)));
     if (!v_any(better))
-        return;
+        return false;
     v_store(hits->t + i, v_select(better, t, best));
     v_store(hits->prim + i, v_select(better, number, of));
     v_store(hits->part + i, v_select(better, part, v_load(hits->part + i)));
+    return true;
 }
 
 /* ---- spheres, see sphere_distance -------------------------------------------------------------
@@ -289,7 +306,10 @@ static vreal clamped_to_bounds(const struct triangle *tri, struct box box, struc
     return v_select(v_at_most(t, far), t, far);
 }
 
-static inline void meet_triangle_along(struct frame_batch *f, struct target target, int axis)
+/* parts: bit j stands for rays PART j to PART (j + 1) - 1; returns those in which there are hits.
+ */
+static inline unsigned meet_triangle_along(struct frame_batch *f, struct target target,
+                                           unsigned parts, int axis)
 {
     const struct triangle *tri = &f->geometry->triangles.at[target.index];
     const struct vec3 *v = f->geometry->vertices.at;
@@ -297,9 +317,10 @@ static inline void meet_triangle_along(struct frame_batch *f, struct target targ
     struct vec3 a = v[tri->vertex[0]], b = v[tri->vertex[1]], c = v[tri->vertex[2]];
     struct box box = {vec3_min(vec3_min(a, b), c), vec3_max(vec3_max(a, b), c)};
     vreal zero = v_all(0);
+    unsigned met = 0;
     for (int k = 0; k < 3; k++)
         corner[k] = v3_all(v[tri->vertex[k]]);
-    for (uint32_t i = 0; i < f->n; i += LANES) {
+    for (uint32_t i = next_lanes(f, &parts, 0); i < f->n; i = next_lanes(f, &parts, i + LANES)) {
         struct vvec3 d = v3_load(&f->rays->direction, i), o = v3_load(&f->rays->origin, i);
         for (int k = 0; k < 3; k++)
             seen[k] = v3_sub(corner[k], o);
@@ -315,24 +336,23 @@ static inline void meet_triangle_along(struct frame_batch *f, struct target targ
         vmask steep = v_at_most(0x1p-4 * v_load(f->square + i), speed * speed);
         if (v_any(may & v_not(steep)))
             t = v_select(steep, t, clamped_to_bounds(tri, box, o, d, t));
-        offer(f, i, v_select(may, t, zero), target.prim, zero);
+        if (offer(f, i, v_select(may, t, zero), target.prim, zero))
+            met |= 1u << i / PART;
     }
+    return met;
 }
 
-static void meet_triangle(struct frame_batch *f, struct target target)
+static unsigned meet_triangle(struct frame_batch *f, struct target target, unsigned parts)
 {
     switch (f->axis) {
     case 0:
-        meet_triangle_along(f, target, 0);
-        break;
+        return meet_triangle_along(f, target, parts, 0);
     case 1:
-        meet_triangle_along(f, target, 1);
-        break;
+        return meet_triangle_along(f, target, parts, 1);
     case 2:
-        meet_triangle_along(f, target, 2);
-        break;
+        return meet_triangle_along(f, target, parts, 2);
     default:
-        meet_triangle_along(f, target, -1);
+        return meet_triangle_along(f, target, parts, -1);
     }
 }
 
@@ -346,7 +366,17 @@ static void meet(struct frame_batch *f, struct target target)
     else if (target.kind == PRIM_CYLINDER)
         meet_cylinder(f, target);
     else
-        meet_triangle(f, target);
+        meet_triangle(f, target, ALL_PARTS);
+}
+
+static void frames_for_list(struct frame_batch *f, const struct geometry *g,
+                            const struct ray_batch *rays, const struct target_list *list,
+                            struct hit_batch *hits)
+{
+    bool has[PRIM_KINDS] = {false};
+    for (uint32_t i = 0; i < list->n; i++)
+        has[list->at[i].kind] = true;
+    frames_init(f, g, rays, has[PRIM_SPHERE], has[PRIM_TRIANGLE], hits);
 }
 
 static double farthest_hit(const struct frame_batch *f)
@@ -361,7 +391,7 @@ static void closest_in_list(const struct geometry *g, const struct ray_batch *ra
                             const struct target_list *list, struct hit_batch *hits)
 {
     struct frame_batch f;
-    frames_init(&f, g, rays, list, hits);
+    frames_for_list(&f, g, rays, list, hits);
     for (uint32_t k = 0; k < list->n; k++) {
         if (list->nearest[k] > 0 && list->nearest[k] > farthest_hit(&f))
             break;
@@ -381,7 +411,7 @@ static void any_in_list(const struct geometry *g, const struct ray_batch *rays,
                         const struct target_list *list, struct hit_batch *hits)
 {
     struct frame_batch f;
-    frames_init(&f, g, rays, list, hits);
+    frames_for_list(&f, g, rays, list, hits);
     for (uint32_t k = 0; k < list->n && !all_hit(&f); k++)
         meet(&f, list->at[k]);
 }

@@ -3,7 +3,7 @@
 #define WRT_ACCEL_WIDE_H
 
 #include "accel/bvh.h"
-#include "base/isa.h"
+#include "math/batch.h"
 
 #include <stdalign.h>
 
@@ -32,7 +32,7 @@ struct triangle_block {
     struct target target[WIDE];
 };
 
-/* What an instruction set has its own code for: a ray against the whole tree. */
+/* What an instruction set has its own code for: rays against the whole tree. */
 struct wide_kernels {
     /* Puts the nearest hit that beats *hit into it. */
     void (*closest)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
@@ -40,6 +40,10 @@ struct wide_kernels {
     /* Puts some hit into it that beats it; whether there is one. */
     bool (*any)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
                 struct hit *hit);
+    /* The nearest hits of all rays, or some; false when they have too little in common to be traced
+     * together, and then nothing is found out. */
+    bool (*packet)(const struct accel *a, const struct ray_batch *rays, bool any,
+                   struct hit_batch *hits);
 };
 
 extern const struct wide_kernels wide_generic, wide_avx2, wide_avx512;

@@ -1,9 +1,9 @@
-/* The body of the vector walk through a wide tree, included by the file of each instruction set
- * after bundle_lanes.h; it sets WIDE_KERNELS to the name of its table.
+/* Single rays through a wide tree.
  *
  * Boxes are only to leave out what cannot be hit: they are tested eight at a time with the padding
  * of traverse.c.  A triangle is left out by the very operations of triangle_meets_axis; for the few
  * that remain target_intersect decides. */
+#include "accel/bundle_lanes.h"
 #include "accel/wide.h"
 
 struct wide_walk {
@@ -180,5 +180,3 @@ static bool any_in_wide(const struct accel *a, const struct ray *ray, const stru
     }
     return false;
 }
-
-const struct wide_kernels WIDE_KERNELS = {closest_in_wide, any_in_wide};

@@ -150,6 +150,17 @@ static inline vreal v_max(vreal a, vreal b)
     return _mm512_max_pd(a, b);
 }
 
+/* Of all lanes. */
+static inline double v_least(vreal a)
+{
+    return _mm512_reduce_min_pd(a);
+}
+
+static inline double v_most(vreal a)
+{
+    return _mm512_reduce_max_pd(a);
+}
+
 #else
 
 typedef vint vmask;
@@ -221,6 +232,18 @@ static inline vreal v_max(vreal a, vreal b)
     return _mm256_max_pd(a, b);
 }
 
+static inline double v_least(vreal a)
+{
+    __m128d m = _mm_min_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
+    return _mm_cvtsd_f64(_mm_min_sd(m, _mm_unpackhi_pd(m, m)));
+}
+
+static inline double v_most(vreal a)
+{
+    __m128d m = _mm_max_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(m, _mm_unpackhi_pd(m, m)));
+}
+
 #else
 
 static inline bool v_any_int(vint a)
@@ -261,6 +284,16 @@ static inline vreal v_min(vreal a, vreal b)
 static inline vreal v_max(vreal a, vreal b)
 {
     return v_select((vmask)(b < a), a, b);
+}
+
+static inline double v_least(vreal a)
+{
+    return a[0] < a[1] ? a[0] : a[1];
+}
+
+static inline double v_most(vreal a)
+{
+    return a[0] > a[1] ? a[0] : a[1];
 }
 
 #endif

@@ -25,7 +25,7 @@ static void find_targets(const struct tracer *t, const struct ray_batch *rays,
                          struct target_list *list)
 {
     list->usable = false;
-    if (!t->skips || rays->n <= 1)
+    if (!t->skips || rays->n <= 1 || bundle_needs_no_lists(&t->accel))
         return;
     struct box origins = t->kernels->bounds(&rays->origin, rays->common_origin ? 1 : rays->n);
     struct box directions = t->kernels->bounds(&rays->direction, rays->n);

@@ -228,8 +228,9 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, doub
         area_shares(w, lamp, box, shares);
         return;
     }
-    if (w->tracer->skips && w->points.n > 1)
-        list_shadowers(w->tracer, lamp, box, &list);
+    const struct tracer *t = w->tracer;
+    if (t->skips && w->points.n > 1 && !bundle_needs_no_lists(&t->accel))
+        list_shadowers(t, lamp, box, &list);
     if (list.usable && list.n == 0)
         open_shares(w, shares);
     else

@@ -7,6 +7,7 @@
 #include "tries.h"
 
 #include "accel/shaft.h"
+#include "accel/wide.h"
 
 #include <string.h>
 
@@ -446,6 +447,88 @@ START_TEST(closed_meshes_are_tight)
 }
 END_TEST
 
+/* Rays from the eye to places near each other, or from there to a lamp, all one way, or every way.
+ */
+static uint32_t some_batch(const struct trees *trees, struct vec3 at, double size, struct ray *rays)
+{
+    const struct geometry *g = trees->geometry;
+    const struct vec3 *v = g->vertices.at + below((uint32_t)g->vertices.n - 20);
+    struct vec3 eye = vec3_add(at, random_vector(40 * size)), way = random_vector(1);
+    struct vec3 lamp = vec3_add(at, random_vector(40 * size));
+    double spread = size * uniform(0, 3), reach = below(2) ? 1 : 1 - 0x1p-32;
+    uint32_t kind = below(5), n = 0, wanted = 4 + below(BATCH - 3);
+    bool strange = below(10) == 0;
+    for (uint32_t i = 0; i < 3 * BATCH && n < wanted; i++) {
+        struct vec3 to = vec3_add(below(3) ? v[0] : v[below(20)], random_vector(spread)), normal;
+        struct ray ray = {.origin = eye,
+                          .direction = vec3_sub(to, eye),
+                          .t_max = RAY_UNBOUNDED,
+                          .from = PRIM_NONE,
+                          .surface = SURFACE_NONE};
+        struct hit hit;
+        if (kind > 0 && !accel_closest(&trees->of[ISA_PLAIN], &ray, &hit))
+            continue;
+        if (kind > 0) {
+            ray.origin = geometry_hit_point(g, &ray, &hit, &normal);
+            ray.from = hit.prim;
+            ray.spawned = true;
+            ray.direction = kind == 1   ? vec3_sub(lamp, ray.origin)
+                            : kind == 2 ? way
+                                        : vec3_add(way, random_vector(kind == 3 ? 0.2 : 2));
+            ray.t_max = kind == 1 ? reach : RAY_UNBOUNDED;
+        }
+        if (strange)
+            ray.direction = strange_direction(ray.direction);
+        rays[n++] = ray;
+    }
+    return n;
+}
+
+START_TEST(packets_see_what_single_rays_see)
+{
+    double size = pow(10, _i % 5 * 3 - 6);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(4) << 30;
+    struct vec3 at = random_vector(_i % 2 ? 1e7 * size : size);
+    add_cloth(&g, at, size);
+    for (uint32_t i = 0; _i % 3 == 0 && i < 40; i++)
+        add_any(&g, i, size);
+    struct trees trees = trees_of(&g);
+    uint32_t traced = 0, tried = 0;
+    for (int round = 0; round < TRIES(300); round++) {
+        struct ray rays[BATCH];
+        struct hit expected[BATCH];
+        struct ray_batch batch;
+        struct hit_batch hits;
+        uint32_t n = some_batch(&trees, at, size, rays);
+        if (n == 0)
+            continue;
+        batch_of(&batch, rays, n, false);
+        for (uint32_t i = 0; i < n; i++)
+            accel_closest(&trees.of[ISA_PLAIN], &rays[i], &expected[i]);
+        for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+            const struct accel *a = &trees.of[isa];
+            if (!a->geometry)
+                continue;
+            tried++;
+            if (!a->wide->kernels->packet(a, &batch, false, &hits))
+                continue;
+            traced++;
+            for (uint32_t i = 0; i < n; i++) {
+                struct hit hit = hit_get(&hits, i);
+                ck_assert(same_hit(&hit, &expected[i]));
+            }
+            ck_assert(a->wide->kernels->packet(a, &batch, true, &hits));
+            for (uint32_t i = 0; i < n; i++)
+                ck_assert_int_eq(hits.prim[i] != PRIM_NONE, expected[i].prim != PRIM_NONE);
+        }
+    }
+    ck_assert_uint_gt(traced, tried / 3);
+    trees_free(&trees);
+    geometry_free(&g);
+}
+END_TEST
+
 Suite *bvh_suite(void)
 {
     Suite *s = suite_create("bvh");
@@ -455,6 +538,7 @@ Suite *bvh_suite(void)
     tcase_add_loop_test(c, bundles_see_what_single_rays_see, 0, 10);
     tcase_add_loop_test(c, shafts_hold_all_shadow_rays, 0, 10);
     tcase_add_loop_test(c, cloth_agrees_with_brute_force, 0, 10);
+    tcase_add_loop_test(c, packets_see_what_single_rays_see, 0, 30);
     tcase_add_test(c, equal_triangles_end);
     tcase_add_test(c, nothing_is_hit_in_an_empty_geometry);
     tcase_add_test(c, closed_meshes_are_tight);
