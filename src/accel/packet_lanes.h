@@ -348,8 +348,8 @@ static void meet_run(struct packet *p, struct wide_child run)
             struct ray ray = ray_get(f->rays, i);
             struct ray_frame frame = ray_frame_of(&ray);
             struct hit hit = hit_get(f->hits, i);
-            if (accel_try_run(p->accel, k, 1, &ray, &frame, p->any, &hit))
-                hit_put(f->hits, i, &hit);
+            accel_try_run(p->accel, k, 1, &ray, &frame, p->any, &hit);
+            hit_put(f->hits, i, &hit);
         }
     }
 }

@@ -62,7 +62,8 @@ enum { WIDE_STACK = BVH_DEPTH_LIMIT * (WIDE - 1) + 1 };
 struct wide *wide_build(const struct accel *a, enum isa isa, unsigned threads);
 void wide_free(struct wide *w);
 
-/* traverse.c: the best hit of a run of targets; with any_hit, the first found ends the search. */
+/* traverse.c: the best hit of a run of targets; with any_hit, the first found ends the search, and
+ * only then it is true. */
 bool accel_try_run(const struct accel *a, uint32_t first, uint32_t count, const struct ray *ray,
                    const struct ray_frame *frame, bool any_hit, struct hit *hit);
 

@@ -9,6 +9,7 @@
 
 #include "accel/bundle.h"
 #include "accel/shaft.h"
+#include "accel/wide.h"
 #include "scene/geometry.h"
 
 #include <float.h>
@@ -453,6 +454,51 @@ START_TEST(shafts_leave_nothing_out)
 }
 END_TEST
 
+/* Rays from one place to others near each other, one by one and together. */
+START_TEST(packets_meet_instances)
+{
+    double size = pow(10, _i % 5 * 4 - 8);
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(2) << 30;
+    fill_scene(&g, size, 10 + below(40));
+    struct accel tree, plain;
+    accel_build_with(&tree, &g, &(struct accel_options){.isa = isa_best(), .threads = 1});
+    accel_build(&plain, &g, false);
+    uint32_t met = 0;
+    for (int round = 0; round < TRIES(300) && tree.wide; round++) {
+        struct vec3 from = random_vector(20 * size), to = random_vector(10 * size);
+        struct ray_batch rays = {.n = BATCH, .common_origin = true};
+        struct hit_batch hits;
+        for (uint32_t i = 0; i < BATCH; i++) {
+            struct ray ray = ray_to(from, vec3_add(to, random_vector(2 * size)));
+            vec3_put(&rays.origin, i, ray.origin);
+            vec3_put(&rays.direction, i, ray.direction);
+            rays.t_max[i] = RAY_UNBOUNDED;
+            rays.from[i] = PRIM_NONE;
+        }
+        for (int any = 0; any < 2; any++) {
+            if (!tree.wide->kernels->packet(&tree, &rays, any, &hits))
+                continue;
+            for (uint32_t i = 0; i < BATCH; i++) {
+                struct ray ray = ray_get(&rays, i);
+                struct hit hit, of_packet = hit_get(&hits, i);
+                bool found = accel_closest(&plain, &ray, &hit);
+                ck_assert_int_eq(of_packet.prim != PRIM_NONE, found);
+                if (!found || any)
+                    continue;
+                met++;
+                ck_assert(of_packet.prim == hit.prim && of_packet.part == hit.part &&
+                          of_packet.t == hit.t);
+            }
+        }
+    }
+    ck_assert(!tree.wide || met > TRIES(1000));
+    accel_free(&tree);
+    accel_free(&plain);
+    geometry_free(&g);
+}
+END_TEST
+
 START_TEST(equal_instances_tie_in_file_order)
 {
     struct geometry g = {0};
@@ -501,6 +547,7 @@ Suite *instance_suite(void)
     tcase_add_loop_test(c, boxes_are_tight, 0, 3);
     tcase_add_loop_test(c, trees_agree_with_brute_force, 0, 30);
     tcase_add_loop_test(c, shafts_leave_nothing_out, 0, 10);
+    tcase_add_loop_test(c, packets_meet_instances, 0, 10);
     tcase_add_test(c, equal_instances_tie_in_file_order);
     tcase_add_test(c, flat_maps_are_refused);
     suite_add_tcase(s, c);
