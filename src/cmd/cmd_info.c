@@ -22,10 +22,8 @@ const char *const info_part_words[INFO_PARTS] = {
 };
 
 const char *const info_frame_words[] = {
-    [DIAG_FRAME_INCLUDE] = "include",
-    [DIAG_FRAME_CALL] = "call",
-    [DIAG_FRAME_USE] = "use",
-    [DIAG_FRAME_ROUND] = "for",
+    [DIAG_FRAME_INCLUDE] = "include", [DIAG_FRAME_CALL] = "call", [DIAG_FRAME_USE] = "use",
+    [DIAG_FRAME_ROUND] = "for",       [DIAG_FRAME_ITEM] = "for",
 };
 
 /* ---- facts ----------------------------------------------------------------------------------- */
@@ -104,20 +102,20 @@ struct info_facts info_facts(const struct info *i)
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
-static void print_place(const struct info *i, struct span span)
+void info_print_place(const struct info *i, struct span span)
 {
     struct location at = srcmap_locate(&i->frontend.sources, span.begin);
     if (at.source)
         printf("  (%s:%u:%u)", at.source->name, at.line, at.column);
 }
 
-static void print_vec3(struct vec3 v)
+void info_print_vec3(struct vec3 v)
 {
     printf("(%.6g, %.6g, %.6g)", v.x, v.y, v.z);
 }
 
 /* "sphere ball", "phong gold" */
-static void print_object(const struct desc_object *o)
+void info_print_object(const struct desc_object *o)
 {
     printf("%s%s%.*s", schema_kinds[o->kind].native, o->name.n ? " " : "", STR_ARG(o->name));
 }
@@ -129,10 +127,10 @@ static void print_details(const struct desc_object *surface)
     if (file)
         printf(" \"%.*s\"", STR_ARG(file->string));
     fputs(": ", stdout);
-    print_object(desc_get(surface, PROP_MATERIAL)->object);
+    info_print_object(desc_get(surface, PROP_MATERIAL)->object);
 }
 
-static void print_frame(const struct info *i, const struct diag_frame *f)
+void info_print_frame(const struct info *i, const struct diag_frame *f)
 {
     struct str name = srcmap_text(&i->frontend.sources, f->at);
     if (f->kind == DIAG_FRAME_USE)
@@ -148,16 +146,16 @@ static void print_node(const struct info *i, const struct info_node *n, int dept
     if (n->object || n->frame) {
         printf("%*s", 2 * depth, "");
         if (n->object)
-            print_object(n->object);
+            info_print_object(n->object);
         else
-            print_frame(i, n->frame);
+            info_print_frame(i, n->frame);
         if (n->object && n->count > 1)
             printf(" x %zu", n->count);
         if (n->object)
             print_details(n->object);
         else
             printf(": %zu surface%s", n->count, n->count > 1 ? "s" : "");
-        print_place(i, n->span);
+        info_print_place(i, n->span);
         putchar('\n');
     }
     for (const struct info_node *c = n->children; c; c = c->next, k++)
@@ -183,8 +181,8 @@ static void print_lights(const struct info *i)
             return;
         }
         fputs("  ", stdout);
-        print_object(d->lights.at[k]);
-        print_place(i, d->lights.at[k]->span);
+        info_print_object(d->lights.at[k]);
+        info_print_place(i, d->lights.at[k]->span);
         putchar('\n');
     }
 }
@@ -213,9 +211,9 @@ static void print_facts(const struct info *i)
     if (f.empty) {
         fputs("none", stdout);
     } else {
-        print_vec3(f.bounds.lo);
+        info_print_vec3(f.bounds.lo);
         fputs(" to ", stdout);
-        print_vec3(f.bounds.hi);
+        info_print_vec3(f.bounds.hi);
     }
     fputs("\nmemory       ", stdout);
     for (int k = 0; k < INFO_PARTS; k++)
@@ -228,56 +226,17 @@ static void print_info(const struct info *i)
     const struct camera *c = &i->lowered.scene.camera;
     printf("%s: model %s, %u x %u pixels\n  camera", i->options->scenes.at[0],
            schema_model_name(i->frontend.desc.model), c->width, c->height);
-    print_place(i, i->frontend.desc.camera->span);
+    info_print_place(i, i->frontend.desc.camera->span);
     putchar('\n');
     if (i->frontend.desc.settings) {
         fputs("  settings", stdout);
-        print_place(i, i->frontend.desc.settings->span);
+        info_print_place(i, i->frontend.desc.settings->span);
         putchar('\n');
     }
     print_lights(i);
     print_textures(&i->lowered.scene);
     print_tree(i);
     print_facts(i);
-}
-
-/* ---- a pixel --------------------------------------------------------------------------------- */
-
-static void print_line(const char *what, struct vec3 v)
-{
-    printf("  %-10s", what);
-    print_vec3(v);
-    putchar('\n');
-}
-
-static void print_pixel(const struct info *i, const struct info_pixel *p)
-{
-    printf("pixel %u,%u: ", p->x, p->y);
-    if (!p->hit) {
-        fputs("nothing\n", stdout);
-        if (p->parallel)
-            print_line("from", p->origin);
-        print_line("direction", p->direction);
-        return;
-    }
-    print_object(p->object);
-    print_place(i, p->object->span);
-    printf("\n  distance  %.6g\n", p->distance);
-    print_line("point", p->point);
-    print_line("normal", p->normal);
-    const struct desc_object *material = desc_get(p->object, PROP_MATERIAL)->object;
-    fputs("  material  ", stdout);
-    print_object(material);
-    print_place(i, material->span);
-    putchar('\n');
-    for (const struct diag_frame *f = p->object->frame; f; f = f->parent) {
-        fputs("  in        ", stdout);
-        print_frame(i, f);
-        if (f->kind == DIAG_FRAME_ROUND)
-            printf(" = %.6g", f->number);
-        print_place(i, f->at);
-        putchar('\n');
-    }
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
@@ -338,11 +297,13 @@ static int print_what_is_behind(const struct info *i)
     uint32_t width = o->width ? o->width : c->width, height = o->width ? o->height : c->height;
     if (o->pixel[0] >= width || o->pixel[1] >= height)
         return usage_error("--pixel lies outside the picture of %u x %u", width, height);
-    struct info_pixel p = info_pixel(i);
+    struct info_pixel p;
+    info_pixel(i, width, height, &p);
     if (o->json)
         print_json(info_pixel_json(i, &p), o);
     else
-        print_pixel(i, &p);
+        info_print_pixel(i, &p);
+    arena_free(&p.arena);
     return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cmd/frontend.h"
 #include "lower/lower.h"
+#include "render/probe.h"
 
 #include <jansson.h>
 
@@ -18,19 +19,19 @@ struct info {
 /* Of longer lists only the beginning is told, unless --verbose is given. */
 enum { INFO_LISTED = 100 };
 
-#define INFO_COUNT_LIST(X)                                                \
-    X(SURFACES, "surfaces")                                               \
-    X(INSTANCES, "instances")                                             \
-    X(SPHERES, "spheres")                                                 \
-    X(CYLINDERS, "cylinders")                                             \
-    X(TRIANGLES, "triangles") X(VERTICES, "vertices") X(LIGHTS, "lights") \
-        X(MATERIALS, "materials") X(TEXTURES, "textures")
+#define INFO_COUNT_LIST(X)    \
+    X(SURFACES, "surfaces")   \
+    X(INSTANCES, "instances") \
+    X(SPHERES, "spheres")     \
+    X(CYLINDERS, "cylinders") \
+    X(TRIANGLES, "triangles") \
+    X(VERTICES, "vertices") X(LIGHTS, "lights") X(MATERIALS, "materials") X(TEXTURES, "textures")
 
-#define INFO_PART_LIST(X)                                                     \
-    X(TEXT, "text")                                                           \
-    X(TREE, "tree")                                                           \
-    X(DESCRIPTION, "description") X(MESHES, "meshes") X(GEOMETRY, "geometry") \
-        X(PICTURES, "pictures") X(PEAK, "peak")
+#define INFO_PART_LIST(X)         \
+    X(TEXT, "text")               \
+    X(TREE, "tree")               \
+    X(DESCRIPTION, "description") \
+    X(MESHES, "meshes") X(GEOMETRY, "geometry") X(PICTURES, "pictures") X(PEAK, "peak")
 
 #define INFO_ID(id, word) INFO_##id,
 enum { INFO_COUNT_LIST(INFO_ID) INFO_COUNTS };
@@ -46,6 +47,12 @@ struct info_facts {
     bool empty; /* nothing to have bounds */
 };
 struct info_facts info_facts(const struct info *i);
+
+/* Text on the standard output: "  (scene.wrt:3:1)", "(1, 2, 3)", "sphere ball", "for i". */
+void info_print_place(const struct info *i, struct span span);
+void info_print_vec3(struct vec3 v);
+void info_print_object(const struct desc_object *o);
+void info_print_frame(const struct info *i, const struct diag_frame *f);
 
 /* ---- info_tree.c: the surfaces, in the loops, templates and files that make them ---- */
 
@@ -75,18 +82,22 @@ void info_files_free(struct info_files *f);
 
 /* ---- info_pixel.c ---- */
 
-/* What the ray of a pixel meets first. */
+/* A pixel of the picture of one sample a pixel. */
 struct info_pixel {
+    struct arena arena;
     uint32_t x, y;
-    struct vec3 origin, direction;
-    bool parallel; /* the origin is not the camera's eye */
-    bool hit;
-    double distance;
-    struct vec3 point, normal;
-    const struct surface *surface;
-    const struct desc_object *object;
+    bool parallel; /* the ray's origin is not the camera's eye */
+    const struct probe_ray *ray;
+    uint8_t bytes[3]; /* in a picture of bytes */
 };
-struct info_pixel info_pixel(const struct info *i);
+
+/* In a picture of this size.  The arena is the caller's to free. */
+void info_pixel(const struct info *i, uint32_t width, uint32_t height, struct info_pixel *p);
+void info_print_pixel(const struct info *i, const struct info_pixel *p);
+
+/* The description of a surface, and of light k, of the scene. */
+const struct desc_object *info_surface(const struct info *i, uint32_t surface);
+const struct desc_object *info_light(const struct info *i, size_t k);
 
 /* ---- info_json.c ---- */
 

@@ -5,9 +5,16 @@
 #include "cmd/stats.h"
 #include "schema/schema.h"
 
+/* What is no finite number, as a colour may be in classic, is null; adding nothing takes the sign
+ * off zeros. */
+static json_t *number_json(double x)
+{
+    return isfinite(x) ? json_real(x + 0) : json_null();
+}
+
 static json_t *vec3_json(struct vec3 v)
 {
-    return json_pack("[f, f, f]", v.x, v.y, v.z);
+    return json_pack("[o, o, o]", number_json(v.x), number_json(v.y), number_json(v.z));
 }
 
 static json_t *str_json(struct str s)
@@ -146,27 +153,80 @@ json_t *info_json(const struct info *i)
     return j;
 }
 
-json_t *info_pixel_json(const struct info *i, const struct info_pixel *p)
+/* ---- a pixel -----------------------------------------------------------------------------------
+ */
+
+static json_t *frames_json(const struct info *i, const struct diag_frame *innermost)
 {
-    json_t *j = json_pack("{s:[i, i], s:b}", "pixel", (int)p->x, (int)p->y, "hit", (int)p->hit);
-    json_object_set_new(j, "origin", vec3_json(p->origin));
-    json_object_set_new(j, "direction", vec3_json(p->direction));
-    if (!p->hit)
-        return j;
-    json_object_set_new(j, "distance", json_real(p->distance));
-    json_object_set_new(j, "point", vec3_json(p->point));
-    json_object_set_new(j, "normal", vec3_json(p->normal));
-    json_object_set_new(j, "surface", surface_json(i, p->object));
     json_t *frames = json_array();
-    for (const struct diag_frame *f = p->object->frame; f; f = f->parent) {
+    for (const struct diag_frame *f = innermost; f; f = f->parent) {
         json_t *frame = json_object();
         struct str name = srcmap_text(&i->frontend.sources, f->at);
         json_object_set_new(frame, info_frame_words[f->kind], str_json(name));
         if (f->kind == DIAG_FRAME_ROUND)
             json_object_set_new(frame, "value", json_real(f->number));
+        if (f->kind == DIAG_FRAME_ITEM)
+            json_object_set_new(frame, "item", json_integer((json_int_t)f->number));
         set_place(frame, i, f->at);
         json_array_append_new(frames, frame);
     }
-    json_object_set_new(j, "frames", frames);
+    return frames;
+}
+
+static json_t *light_json(const struct info *i, size_t k, const struct probe_light *light)
+{
+    json_t *j = object_json(i, info_light(i, k)), *blockers = json_array();
+    for (const struct probe_blocker *b = light->blockers; b; b = b->next) {
+        json_t *blocker = object_json(i, info_surface(i, b->surface));
+        json_object_set_new(blocker, "rays", json_integer((json_int_t)b->rays));
+        json_array_append_new(blockers, blocker);
+    }
+    json_object_set_new(j, "rays", json_integer((json_int_t)light->rays));
+    json_object_set_new(j, "lit", json_integer((json_int_t)light->lit));
+    json_object_set_new(j, "blockers", blockers);
+    json_object_set_new(j, "diffuse", vec3_json(light->diffuse));
+    json_object_set_new(j, "highlight", vec3_json(light->highlight));
+    return j;
+}
+
+static void set_surface(json_t *j, const struct info *i, const struct probe_ray *r)
+{
+    const struct desc_object *o = info_surface(i, r->surface);
+    json_t *lights = json_array();
+    for (size_t k = 0; k < i->lowered.scene.lights.n; k++)
+        json_array_append_new(lights, light_json(i, k, &r->lights[k]));
+    json_object_set_new(j, "distance", number_json(r->distance));
+    json_object_set_new(j, "point", vec3_json(r->point));
+    json_object_set_new(j, "normal", vec3_json(r->normal));
+    json_object_set_new(j, "surface", surface_json(i, o));
+    json_object_set_new(j, "frames", frames_json(i, o->frame));
+    json_object_set_new(j, "diffuse", vec3_json(r->diffuse));
+    json_object_set_new(j, "ambient", vec3_json(r->without));
+    json_object_set_new(j, "lights", lights);
+}
+
+static void set_ray(json_t *j, const struct info *i, const struct probe_ray *r)
+{
+    json_object_set_new(j, "hit", json_boolean(r->hit));
+    json_object_set_new(j, "origin", vec3_json(r->origin));
+    json_object_set_new(j, "direction", vec3_json(r->direction));
+    if (r->hit)
+        set_surface(j, i, r);
+    const struct probe_ray *const bounced[] = {r->reflected, r->refracted};
+    for (int k = 0; k < 2; k++) {
+        if (!bounced[k])
+            continue;
+        json_t *ray = json_pack("{s:o}", "weight", vec3_json(bounced[k]->weight));
+        set_ray(ray, i, bounced[k]);
+        json_object_set_new(j, k ? "refracted" : "reflected", ray);
+    }
+    json_object_set_new(j, "colour", vec3_json(r->colour));
+}
+
+json_t *info_pixel_json(const struct info *i, const struct info_pixel *p)
+{
+    json_t *j = json_pack("{s:[i, i]}", "pixel", (int)p->x, (int)p->y);
+    set_ray(j, i, p->ray);
+    json_object_set_new(j, "bytes", json_pack("[i, i, i]", p->bytes[0], p->bytes[1], p->bytes[2]));
     return j;
 }

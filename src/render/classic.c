@@ -3,21 +3,20 @@
 
 #include "render/tracer.h"
 
-static void classic_light(struct worker *w)
+static struct box classic_begin(struct worker *w)
+{
+    vec3_fill(&w->light.direct, 0, w->points.n, vec3_all(0));
+    vec3_fill(&w->light.intensity, 0, w->points.n, vec3_all(0));
+    return w->tracer->kernels->bounds(&w->points.p, w->points.n);
+}
+
+static void classic_add(struct worker *w, size_t k, struct box box)
 {
     const struct tracer *t = w->tracer;
-    uint32_t n = w->points.n;
     double shares[BATCH_ROOM];
-    vec3_fill(&w->light.direct, 0, n, vec3_all(0));
-    vec3_fill(&w->light.intensity, 0, n, vec3_all(0));
-    if (n == 0)
-        return;
-    struct box box = t->kernels->bounds(&w->points.p, n);
-    fill(shares, n, BATCH_ROOM, 0);
-    for (size_t k = 0; k < t->scene->lights.n; k++) {
-        lamp_shares(w, &t->lamps[k], box, shares);
-        t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
-    }
+    fill(shares, w->points.n, BATCH_ROOM, 0);
+    lamp_shares(w, &t->lamps[k], box, shares);
+    t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
 }
 
 /* Which surface a refracted ray is tested against alone before all others. */
@@ -78,4 +77,4 @@ static void classic_spawn(struct worker *w, struct level *level, const struct pa
     }
 }
 
-const struct shading shading_classic = {classic_light, classic_spawn};
+const struct shading shading_classic = {classic_begin, classic_add, classic_spawn};

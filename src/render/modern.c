@@ -111,50 +111,45 @@ static struct vec3 sample_light(const struct light *light, const struct light_sa
     return vec3_scale(vec3_mul(reflected_light(p, to_light), light->intensity), strength);
 }
 
-/* The samples that are to be tried, and what each gives. */
-struct trial {
-    struct vec3 gives[BATCH];
-    struct vec3 sum;
-};
-
-static void finish_trial(struct worker *w, const struct target_list *list, bool open,
-                         struct trial *trial)
+uint32_t aim_at_samples(struct worker *w, const struct light *light, uint32_t k, uint32_t first,
+                        struct vec3 gives[BATCH])
 {
-    bool blocked[BATCH] = {false};
-    if (w->shadow_rays.n > 0 && !open)
-        find_blocked(w, list, blocked);
-    else
-        w->stats.skipped[SKIP_OPEN] += w->shadow_rays.n;
-    for (uint32_t i = 0; i < w->shadow_rays.n; i++)
-        if (!blocked[i])
-            trial->sum = vec3_add(trial->sum, trial->gives[i]);
-    w->shadow_rays.n = 0;
-}
-
-static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
-                              const struct target_list *list, const struct seen_point *p, bool open)
-{
-    const struct light *light = lamp->light;
     struct ray_batch *rays = &w->shadow_rays;
-    struct trial trial = {.sum = vec3_all(0)};
+    struct seen_point p = seen_point_get(&w->points, k);
+    uint32_t number = first;
     rays->n = 0;
     rays->common_origin = true;
-    for (uint32_t number = 0; number < light->samples.n; number++) {
-        struct light_sample sample = sample_at(w->tracer, light, p->s.p, number);
-        struct vec3 gives = sample_light(light, &sample, p);
-        if (vec3_is_zero(gives))
+    for (; number < light->samples.n && rays->n < BATCH; number++) {
+        struct light_sample sample = sample_at(w->tracer, light, p.s.p, number);
+        struct vec3 light_of = sample_light(light, &sample, &p);
+        if (vec3_is_zero(light_of))
             continue;
         uint32_t i = rays->n++;
-        trial.gives[i] = gives;
-        vec3_put(&rays->origin, i, p->lifted);
-        vec3_put(&rays->direction, i, vec3_sub(sample.position, p->lifted));
+        gives[i] = light_of;
+        vec3_put(&rays->origin, i, p.lifted);
+        vec3_put(&rays->direction, i, vec3_sub(sample.position, p.lifted));
         rays->t_max[i] = shadow_reach(w->tracer, light);
-        rays->from[i] = p->s.prim;
-        if (rays->n == BATCH)
-            finish_trial(w, list, open, &trial);
+        rays->from[i] = p.s.prim;
     }
-    finish_trial(w, list, open, &trial);
-    return trial.sum;
+    return number;
+}
+
+/* What arrives at point k; open: all of it does. */
+static struct vec3 area_light(struct worker *w, const struct light *light,
+                              const struct target_list *list, uint32_t k, bool open)
+{
+    struct vec3 gives[BATCH], sum = vec3_all(0);
+    for (uint32_t number = 0; number < light->samples.n;) {
+        bool blocked[BATCH] = {false};
+        number = aim_at_samples(w, light, k, number, gives);
+        if (open)
+            w->stats.skipped[SKIP_OPEN] += w->shadow_rays.n;
+        else
+            find_blocked(w, list, blocked);
+        for (uint32_t i = 0; i < w->shadow_rays.n; i++)
+            sum = blocked[i] ? sum : vec3_add(sum, gives[i]);
+    }
+    return sum;
 }
 
 static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
@@ -173,34 +168,33 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
             w->stats.skipped[SKIP_UMBRA] += lamp->light->samples.n;
             continue;
         }
-        struct seen_point p = seen_point_get(points, k);
-        struct vec3 light = area_light(w, lamp, &own, &p, view == LAMP_OPEN);
+        struct vec3 light = area_light(w, lamp->light, &own, k, view == LAMP_OPEN);
         vec3_put(&w->light.direct, k, vec3_add(vec3_get(&w->light.direct, k), light));
     }
 }
 
-static void modern_light(struct worker *w)
+static struct box modern_begin(struct worker *w)
 {
-    const struct tracer *t = w->tracer;
-    struct shade_batch *points = &w->points;
-    double shares[BATCH_ROOM];
-    if (points->n == 0)
-        return;
+    const struct shade_batch *points = &w->points;
     for (uint32_t k = 0; k < points->n; k++) {
         struct vec3 diffuse = vec3_get(&points->diffuse, k);
         bool glows = points->finish[k]->glows;
-        vec3_put(&w->light.direct, k, glows ? diffuse : vec3_mul(diffuse, t->scene->ambient));
+        vec3_put(&w->light.direct, k,
+                 glows ? diffuse : vec3_mul(diffuse, w->tracer->scene->ambient));
     }
-    struct box box = t->kernels->bounds(&points->lifted, points->n);
-    for (size_t i = 0; i < t->scene->lights.n; i++) {
-        const struct light *light = &t->scene->lights.at[i];
-        if (light->kind == LIGHT_AREA) {
-            add_area(w, &t->lamps[i], box);
-            continue;
-        }
-        lamp_shares(w, &t->lamps[i], box, shares);
-        add_single(w, light, shares);
+    return w->tracer->kernels->bounds(&points->lifted, points->n);
+}
+
+static void modern_add(struct worker *w, size_t k, struct box box)
+{
+    const struct lamp *lamp = &w->tracer->lamps[k];
+    double shares[BATCH_ROOM];
+    if (lamp->light->kind == LIGHT_AREA) {
+        add_area(w, lamp, box);
+        return;
     }
+    lamp_shares(w, lamp, box, shares);
+    add_single(w, lamp->light, shares);
 }
 
 /* ---- mirrored and refracted rays ------------------------------------------------------------- */
@@ -273,4 +267,4 @@ static void modern_spawn(struct worker *w, struct level *level, const struct pat
             spawn_from(w, level, paths, k);
 }
 
-const struct shading shading_modern = {modern_light, modern_spawn};
+const struct shading shading_modern = {modern_begin, modern_add, modern_spawn};

@@ -113,8 +113,7 @@ static struct lens lens_for(const struct camera *c, const struct render_options 
     return o->whole_view ? lens_of(c, c->width, c->height) : lens_of(c, o->width, o->height);
 }
 
-static void tracer_init(struct tracer *t, const struct scene *scene,
-                        const struct render_options *options)
+void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options)
 {
     *t = (struct tracer){.scene = scene,
                          .options = options,
@@ -140,7 +139,7 @@ static void tracer_init(struct tracer *t, const struct scene *scene,
     }
 }
 
-static void tracer_free(struct tracer *t)
+void tracer_free(struct tracer *t)
 {
     for (size_t i = 0; i < t->scene->lights.n; i++)
         lamp_free(&t->lamps[i]);

@@ -18,22 +18,31 @@ static bool lets_light(const struct tracer *t, const struct target_list *list)
     return false;
 }
 
-/* Modern: whether anything but emissive surfaces is in the ray's way, of which `hit` is the first.
- * What is emissive is passed by a ray that starts on it; enough such stretches for any scene end a
- * walk that rounding errors keep on the spot. */
-static bool is_blocked(const struct tracer *t, struct ray ray, struct hit hit)
+/* Modern: the first of what is in the ray's way, from `hit` on, that is not emissive.  What is
+ * emissive is passed by a ray that starts on it; enough such stretches for any scene end a walk
+ * that rounding errors keep on the spot. */
+static uint32_t first_opaque(const struct tracer *t, struct ray ray, struct hit hit)
 {
     enum { STRETCHES = 1000 };
     for (int i = 0; i < STRETCHES && hit.prim != PRIM_NONE; i++) {
         if (!is_emissive(t, hit.prim))
-            return true;
+            return hit.prim;
         ray.origin = vec3_mad(ray.origin, hit.t, ray.direction);
         ray.t_max -= hit.t;
         ray.from = hit.prim;
         ray.spawned = true;
         accel_closest(&t->accel, &ray, &hit);
     }
-    return false;
+    return PRIM_NONE;
+}
+
+uint32_t find_blocker(const struct tracer *t, const struct ray *ray)
+{
+    struct hit hit;
+    accel_closest(&t->accel, ray, &hit);
+    if (t->modern)
+        return first_opaque(t, *ray, hit);
+    return hit.prim != PRIM_NONE && !is_emissive(t, hit.prim) ? hit.prim : PRIM_NONE;
 }
 
 /* A ray is blocked when its nearest hit is not emissive, in modern also when something behind it is
@@ -52,17 +61,13 @@ void find_blocked(struct worker *w, const struct target_list *list, bool *blocke
     for (uint32_t i = 0; i < rays->n; i++) {
         blocked[i] = hits.prim[i] != PRIM_NONE && !is_emissive(t, (uint32_t)hits.prim[i]);
         if (t->modern && hits.prim[i] != PRIM_NONE && !blocked[i])
-            blocked[i] = is_blocked(t, ray_get(rays, i), hit_get(&hits, i));
+            blocked[i] = first_opaque(t, ray_get(rays, i), hit_get(&hits, i)) != PRIM_NONE;
     }
 }
 
-struct tally {
-    uint64_t counted, lit;
-};
-
 /* The rays from the point through the lamp's points. */
-static void aim_at_points(struct ray_batch *rays, const struct lamp *lamp,
-                          const struct lamp_points *to, struct vec3 p, uint32_t prim)
+static void aim_at_all(struct ray_batch *rays, const struct lamp *lamp,
+                       const struct lamp_points *to, struct vec3 p, uint32_t prim)
 {
     double reach = vec3_length(vec3_sub(lamp->light->position, p));
     rays->n = to->n;
@@ -101,28 +106,35 @@ static void keep_counted(struct worker *w, const struct lamp *lamp, const struct
     rays->n = n;
 }
 
+void aim_at_points(struct worker *w, const struct lamp *lamp, size_t batch, struct vec3 p,
+                   uint32_t prim, uint32_t room[BATCH], const uint32_t **counts)
+{
+    const struct lamp_points *to = &lamp->points[batch];
+    aim_at_all(&w->shadow_rays, lamp, to, p, prim);
+    *counts = to->count;
+    if (to->all_count)
+        return;
+    keep_counted(w, lamp, to, room);
+    *counts = room;
+}
+
 /* The share of the lamp's points that are lit, each tried. */
 static double sampled_share(struct worker *w, const struct lamp *lamp,
                             const struct target_list *list, struct vec3 p, uint32_t prim)
 {
-    struct tally tally = {0, 0};
+    uint64_t counted = 0, lit = 0;
     for (size_t k = 0; k < lamp->point_batches; k++) {
-        const struct lamp_points *to = &lamp->points[k];
-        uint32_t some[BATCH];
-        const uint32_t *counts = to->count;
+        uint32_t room[BATCH];
+        const uint32_t *counts;
         bool blocked[BATCH];
-        aim_at_points(&w->shadow_rays, lamp, to, p, prim);
-        if (!to->all_count) {
-            keep_counted(w, lamp, to, some);
-            counts = some;
-        }
+        aim_at_points(w, lamp, k, p, prim, room, &counts);
         find_blocked(w, list, blocked);
         for (uint32_t i = 0; i < w->shadow_rays.n; i++) {
-            tally.counted += counts[i];
-            tally.lit += blocked[i] ? 0 : counts[i];
+            counted += counts[i];
+            lit += blocked[i] ? 0 : counts[i];
         }
     }
-    return tally.counted ? (double)tally.lit / (double)tally.counted : 0;
+    return counted ? (double)lit / (double)counted : 0;
 }
 
 /* What nothing is in the way of is lit only where some point counts seen from anywhere. */
@@ -182,9 +194,7 @@ static void subtract(double from, const double *x, uint32_t n, double *differenc
         difference[i] = from - x[i];
 }
 
-/* The rays from n of the points to the light. */
-static void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which,
-                         uint32_t n)
+void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which, uint32_t n)
 {
     const struct shade_batch *points = &w->points;
     const struct vec3_batch *from = w->tracer->modern ? &points->lifted : &points->p;

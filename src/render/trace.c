@@ -28,8 +28,7 @@ static struct level *level_new(void)
     return level;
 }
 
-/* The level of this depth, emptied.  Levels are made one after another. */
-static struct level *level_at(struct worker *w, uint32_t depth)
+struct level *level_at(struct worker *w, uint32_t depth)
 {
     if (depth == w->levels.n)
         vec_push(&w->levels, level_new());
@@ -52,6 +51,14 @@ static void trace_offspring(struct worker *w, struct level *level, uint32_t dept
     }
 }
 
+static void add_lights(struct worker *w)
+{
+    const struct shading *shading = w->tracer->shading;
+    struct box box = shading->begin(w);
+    for (size_t k = 0; k < w->tracer->scene->lights.n; k++)
+        shading->add(w, k, box);
+}
+
 /* A ray's colour is its direct light, then its reflection, then its refraction: the order of the
  * sum, and so every bit of it, does not depend on what else is in the batch. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
@@ -61,7 +68,8 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
     const struct tracer *t = w->tracer;
     vec3_fill(colours, 0, rays->n, t->scene->background);
     find_points(w, rays, paths);
-    t->shading->light(w);
+    if (w->points.n > 0)
+        add_lights(w);
     for (uint32_t k = 0; k < w->points.n; k++)
         vec3_put(colours, w->points.ray[k], vec3_get(&w->light.direct, k));
     if (depth < t->options->depth && w->points.any_bounces)

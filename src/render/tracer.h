@@ -53,8 +53,11 @@ struct path;
 
 /* A model's arithmetic. */
 struct shading {
-    /* Fills in w->light.direct for w->points, and what the model's spawn() needs. */
-    void (*light)(struct worker *w);
+    /* Sets w->light for w->points, of which there are some, to what is there without lights;
+     * returns the box that shadow rays start in. */
+    struct box (*begin)(struct worker *w);
+    /* Adds light k of the scene to w->light.direct, and what the model's spawn() needs. */
+    void (*add)(struct worker *w, size_t k, struct box box);
     /* Notes the rays that the points give rise to. */
     void (*spawn)(struct worker *w, struct level *level, const struct path *paths);
 };
@@ -262,6 +265,17 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, doub
 double shadow_reach(const struct tracer *t, const struct light *light);
 /* Traces w->shadow_rays: which of them meet what blocks light. */
 void find_blocked(struct worker *w, const struct target_list *list, bool *blocked);
+/* The primitive that blocks a shadow ray's light, or PRIM_NONE. */
+uint32_t find_blocker(const struct tracer *t, const struct ray *ray);
+/* Fill w->shadow_rays with rays to a light: from n of w->points to one that has a single ray a
+ * point; from a point to the counted ones of a batch of lamp->points, *counts telling how often
+ * each is there, in `room` if need be; modern: from point k to samples of an area light from
+ * `first` on that give some light, and how much.  Returns the first not tried. */
+void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which, uint32_t n);
+void aim_at_points(struct worker *w, const struct lamp *lamp, size_t batch, struct vec3 p,
+                   uint32_t prim, uint32_t room[BATCH], const uint32_t **counts);
+uint32_t aim_at_samples(struct worker *w, const struct light *light, uint32_t k, uint32_t first,
+                        struct vec3 gives[BATCH]);
 
 /* points.c: fills in w->points with the hits of the rays; paths is NULL for camera rays. */
 void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths);
@@ -286,11 +300,17 @@ static inline struct path *spawn_ray(struct offspring *o, const struct shade_bat
     return &o->paths[i];
 }
 
-/* trace.c: the colours seen along the rays; paths is NULL for camera rays. */
+/* trace.c: the level of this depth, emptied; levels are made one after another. */
+struct level *level_at(struct worker *w, uint32_t depth);
+/* The colours seen along the rays; paths is NULL for camera rays. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
                  const struct path *paths, struct vec3_batch *colours);
 struct worker *worker_new(const struct tracer *tracer);
 void worker_free(struct worker *w);
+
+/* render.c */
+void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options);
+void tracer_free(struct tracer *t);
 
 /* show.c: what is shown along the rays instead of their colours.  `range` holds the smallest and
  * the largest distance in the whole picture. */
