@@ -4,7 +4,7 @@
 
 #include "cmd/frontend.h"
 #include "lower/lower.h"
-#include "render/probe.h"
+#include "render/pixel_probe.h"
 
 #include <jansson.h>
 
@@ -86,7 +86,6 @@ void info_files_free(struct info_files *f);
 struct info_pixel {
     struct arena arena;
     uint32_t x, y;
-    bool parallel; /* the ray's origin is not the camera's eye */
     const struct probe_ray *ray;
     uint8_t bytes[3]; /* in a picture of bytes */
 };

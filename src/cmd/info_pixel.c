@@ -16,7 +16,7 @@ void info_pixel(const struct info *i, uint32_t width, uint32_t height, struct in
                                            .depth = s->depth,
                                            .threads = 1};
     uint32_t x = i->options->pixel[0], y = i->options->pixel[1];
-    *p = (struct info_pixel){.x = x, .y = y, .parallel = s->camera.modern && !(s->camera.yfov > 0)};
+    *p = (struct info_pixel){.x = x, .y = y};
     p->ray = probe_pixel(s, &options, x, y, &p->arena);
     struct picture *picture = picture_new(1, 1, false);
     picture->encoding = render_encoding(s, SHOW_PICTURE);
@@ -122,6 +122,7 @@ static void print_surface(const struct info *i, int indent, const struct probe_r
     const struct scene *s = &i->lowered.scene;
     const struct desc_object *o = info_surface(i, r->surface);
     const struct desc_object *material = desc_get(o, PROP_MATERIAL)->object;
+    bool glows = s->materials.at[s->surfaces.at[r->surface].material].kind == MATERIAL_EMISSIVE;
     print_origin(i, o);
     print_word(indent, "distance");
     printf("%.6g\n", r->distance);
@@ -132,13 +133,10 @@ static void print_surface(const struct info *i, int indent, const struct probe_r
     print_frames(i, indent, o->frame);
     print_line(indent, "diffuse", r->diffuse);
     if (!vec3_is_zero(r->without))
-        print_line(indent,
-                   s->materials.at[s->surfaces.at[r->surface].material].kind == MATERIAL_EMISSIVE
-                       ? "glows"
-                       : "ambient",
-                   r->without);
+        print_line(indent, glows ? "glows" : "ambient", r->without);
     for (size_t k = 0; k < s->lights.n; k++)
-        print_light(i, indent, k, &r->lights[k]);
+        if (!glows || !vec3_is_zero(r->lights[k].diffuse))
+            print_light(i, indent, k, &r->lights[k]);
 }
 
 /* `left` rays may still be told. */
@@ -169,6 +167,10 @@ static void print_ray(const struct info *i, int indent, const struct probe_ray *
         print_surface(i, indent, r);
     else
         fputs("nothing\n", stdout);
+    const struct camera *camera = &i->lowered.scene.camera;
+    bool parallel = camera->modern && !(camera->yfov > 0);
+    if (!r->hit && r->way == PROBE_CAMERA && parallel)
+        print_line(indent, "from", r->origin);
     if (!r->hit)
         print_line(indent, "direction", r->direction);
     print_bounced(i, indent, "reflected", r->reflected, left);
@@ -181,8 +183,6 @@ void info_print_pixel(const struct info *i, const struct info_pixel *p)
     size_t left = i->options->verbose ? SIZE_MAX : INFO_LISTED;
     printf("pixel %u,%u: ", p->x, p->y);
     print_ray(i, 2, p->ray, &left);
-    if (p->parallel && !p->ray->hit)
-        print_line(2, "from", p->ray->origin);
     print_word(2, "picture");
     printf("#%02x%02x%02x\n", p->bytes[0], p->bytes[1], p->bytes[2]);
 }

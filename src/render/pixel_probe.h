@@ -1,6 +1,6 @@
 /* One pixel, with all that its colour is made of. */
-#ifndef WRT_RENDER_PROBE_H
-#define WRT_RENDER_PROBE_H
+#ifndef WRT_RENDER_PIXEL_PROBE_H
+#define WRT_RENDER_PIXEL_PROBE_H
 
 #include "base/arena.h"
 #include "render/render.h"

@@ -1,6 +1,6 @@
 #include "config.h"
 
-#include "render/probe.h"
+#include "render/pixel_probe.h"
 
 #include "render/samples.h"
 
