@@ -23,7 +23,7 @@ const char *const info_part_words[INFO_PARTS] = {
 
 const char *const info_frame_words[] = {
     [DIAG_FRAME_INCLUDE] = "include", [DIAG_FRAME_CALL] = "call", [DIAG_FRAME_USE] = "use",
-    [DIAG_FRAME_ROUND] = "for",       [DIAG_FRAME_ITEM] = "for",
+    [DIAG_FRAME_ROUND] = "for",       [DIAG_FRAME_ITEM] = "for",       [DIAG_FRAME_GROUP] = "group",
 };
 
 /* ---- facts ----------------------------------------------------------------------------------- */
@@ -133,7 +133,9 @@ static void print_details(const struct desc_object *surface)
 void info_print_frame(const struct info *i, const struct diag_frame *f)
 {
     struct str name = srcmap_text(&i->frontend.sources, f->at);
-    if (f->kind == DIAG_FRAME_USE)
+    if (f->kind == DIAG_FRAME_GROUP)
+        printf("%.*s", STR_ARG(name));
+    else if (f->kind == DIAG_FRAME_USE)
         printf("%.*s(...)", STR_ARG(name));
     else
         printf("%s %.*s", info_frame_words[f->kind], STR_ARG(name));

@@ -87,7 +87,7 @@ static uint32_t origin_of(const struct xml_writer *w, const struct desc_object *
 {
     uint32_t at = xml_is_own(w, o->span.begin) ? o->span.begin : w->ast->source->base;
     for (const struct diag_frame *f = o->frame; f; f = f->parent)
-        if (xml_is_own(w, f->at.begin))
+        if (f->kind != DIAG_FRAME_GROUP && xml_is_own(w, f->at.begin))
             at = f->at.begin;
     return at;
 }

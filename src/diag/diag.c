@@ -148,16 +148,17 @@ static bool is_of_text(uint64_t code)
 static struct diag_entry *find_repeated(struct diag *d, struct key *k)
 {
     enum { MANY = 1000 };
-    struct diag_entry *first = d->frame ? get_framed(d, k) : NULL;
-    if (!d->frame || (first && (is_of_text(k->code) || first->ways++ > MANY)))
+    const struct diag_frame *frame = diag_frame_told(d->frame);
+    struct diag_entry *first = frame ? get_framed(d, k) : NULL;
+    if (!frame || (first && (is_of_text(k->code) || first->ways++ > MANY)))
         return first;
-    k->sites = diag_frame_sites(d->frame);
+    k->sites = diag_frame_sites(frame);
     return get_framed(d, k);
 }
 
 static void remember_frame(struct diag *d, struct diag_entry *e, struct key *k)
 {
-    if (!d->frame || e == &d->spare)
+    if (!diag_frame_told(d->frame) || e == &d->spare)
         return;
     diag_add_frames(e, d->frame);
     set_framed(d, k, e);

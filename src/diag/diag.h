@@ -116,13 +116,15 @@ struct diag_fixit {
     enum diag_fix_kind kind;
 };
 
-/* How evaluation came to where it stands: includes, calls, uses of templates, rounds of loops. */
+/* How evaluation came to where it stands: includes, calls, uses of templates, rounds of loops,
+ * groups. */
 enum diag_frame_kind {
     DIAG_FRAME_INCLUDE, /* at: the path as written */
     DIAG_FRAME_CALL,    /* at: the function's name in the call */
     DIAG_FRAME_USE,     /* at: the template's name in its use */
     DIAG_FRAME_ROUND,   /* at: the variable of the loop, which is a number */
     DIAG_FRAME_ITEM,    /* at: the variable of the loop, which is something else */
+    DIAG_FRAME_GROUP,   /* at: 'group' and its label; findings do not tell it */
 };
 
 struct diag_frame {
@@ -215,6 +217,8 @@ static inline bool diag_full(const struct diag *d)
 
 /* A number for the places of the frames, whatever their order and rounds (used by diag_report). */
 uint64_t diag_frame_sites(const struct diag_frame *innermost);
+/* The innermost that findings tell: one text has one way into its groups. */
+const struct diag_frame *diag_frame_told(const struct diag_frame *innermost);
 /* Tells the frames in words (likewise). */
 void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost);
 

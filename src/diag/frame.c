@@ -21,11 +21,24 @@ static const char *words_of(struct diag *d, const struct diag_frame *f)
     case DIAG_FRAME_ITEM:
         return arena_printf(&d->arena, "in 'for' with item %.0f as %.*s", f->number, STR_ARG(name));
     case DIAG_FRAME_ROUND:
+    case DIAG_FRAME_GROUP:
         break;
     }
     char number[NUM_PRINT_BYTES];
     num_print(f->number, number);
     return arena_printf(&d->arena, "in 'for' with %.*s = %s", STR_ARG(name), number);
+}
+
+const struct diag_frame *diag_frame_told(const struct diag_frame *innermost)
+{
+    while (innermost && innermost->kind == DIAG_FRAME_GROUP)
+        innermost = innermost->parent;
+    return innermost;
+}
+
+static const struct diag_frame *next_told(const struct diag_frame *f)
+{
+    return diag_frame_told(f->parent);
 }
 
 /* Mistakes found by two ways are two, but not the many ways through a recursion, which differ only
@@ -36,7 +49,7 @@ uint64_t diag_frame_sites(const struct diag_frame *innermost)
     uint32_t seen[MOST];
     uint64_t sum = 0;
     int n = 0;
-    for (const struct diag_frame *f = innermost; f && n < MOST; f = f->parent) {
+    for (const struct diag_frame *f = diag_frame_told(innermost); f && n < MOST; f = next_told(f)) {
         int i = 0;
         while (i < n && seen[i] != f->at.begin)
             i++;
@@ -56,10 +69,11 @@ static void add(struct diag_entry *e, struct span at, const char *text)
 void diag_add_frames(struct diag_entry *e, const struct diag_frame *innermost)
 {
     size_t n = 0, i = 0;
-    for (const struct diag_frame *f = innermost; f; f = f->parent)
+    innermost = diag_frame_told(innermost);
+    for (const struct diag_frame *f = innermost; f; f = next_told(f))
         n++;
     size_t hidden = n > INNERMOST + OUTERMOST + 1 ? n - INNERMOST - OUTERMOST : 0;
-    for (const struct diag_frame *f = innermost; f; f = f->parent, i++)
+    for (const struct diag_frame *f = innermost; f; f = next_told(f), i++)
         if (hidden && i == INNERMOST)
             add(e, (struct span){0}, arena_printf(&e->owner->arena, "... %zu more ...", hidden));
         else if (!hidden || i < INNERMOST || i >= INNERMOST + hidden)

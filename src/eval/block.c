@@ -312,10 +312,21 @@ static void group_close(struct eval *e, struct group *g)
     arena_release(&e->group_arena, g->mark);
 }
 
+/* "group", "group wheels" */
+static struct span group_words(const struct ast_node *node)
+{
+    struct span words = node->name_span;
+    if (node->label.n)
+        words.end = words.begin + (uint32_t)(node->label.at + node->label.n - node->name.at);
+    return words;
+}
+
 static void eval_group(struct eval *e, const struct ast_node *node)
 {
     struct scope *outer = e->scope, scope;
+    struct frame frame;
     struct group g;
+    frame_open(e, &frame, DIAG_FRAME_GROUP, group_words(node));
     group_open(e, &g, node, node->children);
     e->inside |= INSIDE_GROUP;
     scope_open(e, &scope, outer);
@@ -327,6 +338,7 @@ static void eval_group(struct eval *e, const struct ast_node *node)
             eval_statement(e, m);
     scope_close(e, outer);
     group_close(e, &g);
+    frame_close(e, &frame);
 }
 
 /* Outer places come first in the list. */

@@ -136,7 +136,7 @@ static void find_shown(const struct lint *l, const struct sight *s, struct map *
 {
     for (uint32_t i = 0; i < l->lowered->scene.surfaces.n; i++) {
         const struct desc_object *o = survey_object(l->survey, i);
-        if (o->frame && !sides_of(l, s, i))
+        if (diag_frame_told(o->frame) && !sides_of(l, s, i))
             map_set(shown, place_of(o), shown);
     }
 }
