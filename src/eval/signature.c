@@ -58,6 +58,14 @@ void signature_write(struct buffer *out, const struct signature *s)
     buffer_puts(out, ")");
 }
 
+bool signature_is_function(struct str name)
+{
+    for (int f = 0; f < FUNCTIONS; f++)
+        if (str_is(name, functions[f].name))
+            return true;
+    return false;
+}
+
 bool signature_describe_function(struct buffer *out, struct str name)
 {
     int f = 0;

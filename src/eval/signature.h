@@ -23,6 +23,9 @@ const char *signature_type(char letter);
 /* `clamp(x, low, high)`, `str(x, digits = ...)` */
 void signature_write(struct buffer *out, const struct signature *s);
 
+/* Whether the language has a function of this name. */
+bool signature_is_function(struct str name);
+
 /* All about the function, or the statement; false when there is none of this name. */
 bool signature_describe_function(struct buffer *out, struct str name);
 bool signature_describe_statement(struct buffer *out, struct str name);

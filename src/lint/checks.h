@@ -45,6 +45,9 @@ struct str lint_name(const struct desc_object *o, enum schema_prop_id id);
 /* Whether two materials without texture are the same in all they say. */
 bool lint_same_material(const struct desc_object *a, const struct desc_object *b);
 
+/* Text of numbers and signs only, with no name that may mean something else elsewhere. */
+bool lint_is_spelt_out(struct str text);
+
 /* True in the file itself, not in one that it includes. */
 bool lint_is_here(const struct lint *l, struct span span);
 

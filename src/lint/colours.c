@@ -153,3 +153,62 @@ void lint_depth(const struct lint *l)
     if (depth && depth->number[0] == 0)
         lint_each_material(l, check_depth);
 }
+
+/* ---- far above white ---- */
+
+static bool are_bytes(struct vec3 c)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(vec3_at(c, i) >= 0 && vec3_at(c, i) <= 255 && vec3_at(c, i) == floor(vec3_at(c, i))))
+            return false;
+    return true;
+}
+
+static void check_bright(const struct lint *l, enum schema_prop_id id)
+{
+    const struct desc_value *v = lint_own(l->desc->settings, id);
+    struct vec3 c = v ? desc_vector(l->desc->settings, id) : vec3_all(0);
+    if (largest(c) <= LINT(MOST_BRIGHT))
+        return;
+    struct str name = lint_name(l->desc->settings, id);
+    struct diag_entry *e = diag_report(l->diag, DIAG_COLOUR_IN_BYTES, v->span,
+                                       "'%.*s' is %.4g times as bright as white, which is 1",
+                                       STR_ARG(name), largest(c));
+    if (!are_bytes(c) || !lint_is_spelt_out(srcmap_text(l->sources, v->span)))
+        return;
+    int r = (int)c.x, g = (int)c.y, b = (int)c.z;
+    diag_note(e, "a colour in bytes is written #%02x%02x%02x", r, g, b);
+    diag_fix(e, v->span, DIAG_FIX_MAYBE, "#%02x%02x%02x", r, g, b);
+}
+
+void lint_bright_settings(const struct lint *l)
+{
+    if (!l->desc->settings)
+        return;
+    check_bright(l, PROP_BACKGROUND);
+    check_bright(l, PROP_AMBIENT);
+}
+
+/* ---- mirrors that are none ---- */
+
+static void check_mirror(const struct lint *l, const struct desc_object *o)
+{
+    static const struct {
+        enum schema_kind kind, like;
+        enum schema_prop_id prop;
+    } rows[] = {{KIND_SHINY, KIND_PHONG, PROP_REFLECTION},
+                {KIND_GLASS, KIND_SHINY, PROP_REFRACTION}};
+    int i = o->kind == KIND_GLASS;
+    const struct desc_value *v = lint_own(o, rows[i].prop);
+    if (o->kind != rows[i].kind || !v || !vec3_is_zero(desc_vector(o, rows[i].prop)) ||
+        !lint_is_spelt_out(srcmap_text(l->sources, v->span)))
+        return;
+    diag_report(l->diag, DIAG_IDLE_MIRROR, v->span, "with a '%.*s' of 0 this %s is a %s",
+                STR_ARG(lint_name(o, rows[i].prop)), schema_kind_name(o->kind, o->xml),
+                schema_kind_name(rows[i].like, o->xml));
+}
+
+void lint_idle_mirrors(const struct lint *l)
+{
+    lint_each_material(l, check_mirror);
+}

@@ -68,6 +68,14 @@ bool lint_same_material(const struct desc_object *a, const struct desc_object *b
     return true;
 }
 
+bool lint_is_spelt_out(struct str text)
+{
+    for (size_t i = 0; i < text.n; i++)
+        if (!strchr("0123456789.+-(), \t\n", text.at[i]))
+            return false;
+    return true;
+}
+
 bool lint_is_here(const struct lint *l, struct span span)
 {
     const struct source *s = l->ast->source;

@@ -47,3 +47,29 @@ void lint_uvs(const struct lint *l)
 {
     lint_each_surface(l, check_uvs);
 }
+
+static void check_scale(const struct lint *l, const struct desc_object *o)
+{
+    static const enum schema_prop_id props[] = {PROP_UV_SCALE, PROP_UV_OFFSET};
+    const struct desc_value *scale = lint_own(o, PROP_UV_SCALE);
+    bool textured = desc_get(o, PROP_TEXTURE);
+    for (int i = 0; i < 2 && !textured; i++) {
+        const struct desc_prop *p = desc_find(o, props[i]);
+        if (!p || p->inherited)
+            continue;
+        struct diag_entry *e = diag_report(l->diag, DIAG_UV_UNUSED, p->value.span,
+                                           "nothing uses '%.*s': the material has no texture",
+                                           STR_ARG(lint_name(o, props[i])));
+        if (!o->xml)
+            lint_remove(l, e, span_join(p->name_span, p->value.span), DIAG_FIX_MAYBE);
+    }
+    if (textured && scale && (scale->number[0] == 0 || scale->number[1] == 0))
+        diag_report(l->diag, DIAG_UV_SCALE_ZERO, scale->span,
+                    "a factor of 0 shows one %s of the texture everywhere",
+                    scale->number[0] != 0 || scale->number[1] != 0 ? "row" : "texel");
+}
+
+void lint_uv_scales(const struct lint *l)
+{
+    lint_each_material(l, check_scale);
+}

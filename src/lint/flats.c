@@ -106,3 +106,23 @@ void lint_planes(const struct lint *l)
 {
     lint_each_surface(l, check_plane);
 }
+
+/* The halves are v0 v1 v2 and v2 v3 v0: with v1 and v3 on one side of the diagonal they cover each
+ * other.  A dart whose inner corner is v0 or v2 is right. */
+static void check_fold(const struct lint *l, const struct desc_object *o)
+{
+    struct vec3 t[2][3];
+    if (flat_triangles(o, t) < 2 || flat_relative_height(t[0]) < LINT(LEAST_HEIGHT) ||
+        flat_relative_height(t[1]) < LINT(LEAST_HEIGHT) ||
+        vec3_dot(flat_normal(t[0]), flat_normal(t[1])) >= 0)
+        return;
+    struct diag_entry *e = diag_report(l->diag, DIAG_FOLDED_QUAD, flat_span(o),
+                                       "the two halves of this quad lie on each other");
+    diag_note(e, "it is the triangles v0 v1 v2 and v2 v3 v0: give the corners in the order around "
+                 "it, beginning at the inner one if it has one");
+}
+
+void lint_folds(const struct lint *l)
+{
+    lint_each_surface(l, check_fold);
+}

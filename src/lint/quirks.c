@@ -93,3 +93,28 @@ void lint_breakangs(const struct lint *l)
     if (l->desc->model == SCHEMA_CLASSIC)
         lint_each_surface(l, check_breakang);
 }
+
+/* ---- cylinders ---- */
+
+static void check_top(const struct lint *l, const struct desc_object *o)
+{
+    const struct desc_value *top = o->kind == KIND_CYLINDER ? lint_own(o, PROP_TOP) : NULL;
+    const struct desc_value *height = desc_get(o, PROP_HEIGHT);
+    if (!top || !height || height->number[0] == 0)
+        return;
+    struct vec3 up = {0, height->number[0], 0};
+    struct vec3 other = vec3_add(desc_vector(o, PROP_BASE), up);
+    struct vec3 off = vec3_sub(desc_vector(o, PROP_TOP), other);
+    const double rounding = 1e-12;
+    if (vec3_largest(off) <= rounding * vec3_largest(other))
+        return;
+    struct diag_entry *e = diag_report(l->diag, DIAG_TOP_AND_HEIGHT, top->span,
+                                       "this '%.*s' is not used: the height wins when it is not 0",
+                                       STR_ARG(lint_name(o, PROP_TOP)));
+    diag_label(e, height->span, "the height is here");
+}
+
+void lint_tops(const struct lint *l)
+{
+    lint_each_surface(l, check_top);
+}

@@ -1,4 +1,4 @@
-/* How often lights are sampled. */
+/* How often lights and pixels are sampled. */
 #include "config.h"
 
 #include "lint/checks.h"
@@ -21,4 +21,18 @@ static void check_samples(const struct lint *l, const struct desc_object *o)
 void lint_light_samples(const struct lint *l)
 {
     lint_each_light(l, check_samples);
+}
+
+void lint_costs(const struct lint *l)
+{
+    const struct desc_object *o = l->desc->settings;
+    const struct desc_value *samples = o ? lint_own(o, PROP_SAMPLES) : NULL;
+    const struct desc_value *depth = o ? lint_own(o, PROP_DEPTH) : NULL;
+    if (samples && samples->number[0] > LINT(MOST_SAMPLES))
+        diag_report(l->diag, DIAG_COSTLY_SETTINGS, samples->span,
+                    "%g samples along each side are %g rays through every pixel",
+                    samples->number[0], samples->number[0] * samples->number[0]);
+    if (depth && depth->number[0] > LINT(MOST_DEPTH))
+        diag_report(l->diag, DIAG_COSTLY_SETTINGS, depth->span,
+                    "rays are followed from mirror to mirror up to %g times", depth->number[0]);
 }

@@ -199,6 +199,47 @@ void lint_style(const struct lint *l)
     visit(l, l->ast->statements);
 }
 
+/* ---- the same twice ---- */
+
+static bool are_same(const struct lint *l, const struct ast_node *a, const struct ast_node *b)
+{
+    return str_equal(srcmap_text(l->sources, a->span), srcmap_text(l->sources, b->span));
+}
+
+static void check_comparison(const struct lint *l, const struct ast_node *node)
+{
+    const struct ast_node *left = node->children, *right = left->next;
+    bool compares = right->operator>= AST_EQUAL && right->operator<= AST_GREATER_EQUAL;
+    if (compares && !right->next && are_same(l, left, right))
+        diag_report(l->diag, DIAG_SAME_OPERANDS, node->span, "this is compared with itself");
+}
+
+/* A condition, and what follows by it; for `if` the other branch may be missing. */
+static void check_choice(const struct lint *l, const struct ast_node *node)
+{
+    const struct ast_node *one = node->children->next, *other = one->next;
+    if (other && are_same(l, one, other))
+        diag_label(diag_report(l->diag, DIAG_SAME_OPERANDS, other->span,
+                               "this is the same whatever the condition says"),
+                   one->span, "the other branch is here");
+}
+
+static void visit_choices(const struct lint *l, const struct ast_node *first)
+{
+    for (const struct ast_node *n = first; n; n = n->next) {
+        if (n->kind == AST_CHAIN)
+            check_comparison(l, n);
+        else if (n->kind == AST_CONDITIONAL || n->kind == AST_IF)
+            check_choice(l, n);
+        visit_choices(l, n->children);
+    }
+}
+
+void lint_same_operands(const struct lint *l)
+{
+    visit_choices(l, l->ast->statements);
+}
+
 /* ---- the order of statements ---- */
 
 enum turn { TURN_CAMERA, TURN_LIGHTS, TURN_SURFACES, TURN_NONE };
@@ -237,15 +278,6 @@ void lint_order(const struct lint *l)
 }
 
 /* ---- what would be so anyway ---- */
-
-/* Text without a name in it, which may mean something else elsewhere. */
-static bool is_spelt_out(struct str text)
-{
-    for (size_t i = 0; i < text.n; i++)
-        if (!strchr("0123456789.+-(), \t\n", text.at[i]))
-            return false;
-    return true;
-}
 
 static bool is_default(const struct desc_object *o, const struct desc_prop *p)
 {
@@ -293,7 +325,7 @@ static void check_defaults(const struct lint *l, const struct desc_object *o)
             may_differ_elsewhere(l, o, id))
             continue;
         struct str text = srcmap_text(l->sources, p->value.span);
-        if (!word && !is_spelt_out(text) &&
+        if (!word && !lint_is_spelt_out(text) &&
             !(flag && (str_is(text, "true") || str_is(text, "false"))))
             continue;
         struct span all = span_join(p->name_span, p->value.span);

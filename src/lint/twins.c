@@ -1,4 +1,4 @@
-/* Surfaces that are there twice.
+/* Surfaces and lights that are there twice.
  *
  * Each surface is written down as numbers, once for its shape and place and once for its look;
  * shapes are sorted by a hash of theirs, and what has the same is compared in full. */
@@ -280,6 +280,60 @@ void lint_twins(const struct lint *l)
     vec_free(&t.other.list);
     map_free(&t.files);
     map_free(&t.textures);
+    map_free(&t.materials);
+    arena_free(&t.arena);
+}
+
+/* ---- lights ---- */
+
+/* False for one whose shape is a surface of its own. */
+static bool put_light(struct numbers *n, const struct desc_object *o)
+{
+    n->list.n = 0;
+    put(n, o->kind);
+    put_place(n, o->place);
+    for (int i = 0; i < SCHEMA_PROPS; i++) {
+        enum schema_prop_id id = (enum schema_prop_id)i;
+        const struct desc_value *v = desc_get(o, id);
+        bool known = v || (schema_props[id].has_default >> o->model & 1);
+        if (!schema_has(o->kind, id) || (!known && schema_props[id].type != TYPE_POINTS))
+            continue;
+        put(n, i);
+        if (schema_props[id].type == TYPE_SURFACE)
+            return false;
+        if (schema_props[id].type == TYPE_POINTS)
+            put_points(n, o, id, false);
+        else if (schema_props[id].type == TYPE_WORD)
+            put(n, desc_word(o, id));
+        else
+            put_vector(n, desc_vector(o, id));
+    }
+    return true;
+}
+
+void lint_twin_lights(const struct lint *l)
+{
+    struct twins t = {.l = l};
+    VEC(const struct desc_object *) firsts = {0}; /* by number in the map */
+    for (size_t i = 0; i < l->desc->lights.n; i++) {
+        const struct desc_object *o = l->desc->lights.at[i];
+        if (vec3_is_zero(desc_vector(o, PROP_INTENSITY)) || !put_light(&t.one, o))
+            continue;
+        size_t number = (size_t)number_of_list(&t, &t.materials, &t.one);
+        if (number > firsts.n) {
+            vec_push(&firsts, o);
+            continue;
+        }
+        const struct desc_object *first = firsts.at[number - 1];
+        l->diag->frame = o->frame;
+        struct diag_entry *e = diag_report(l->diag, DIAG_DUPLICATE_LIGHT, o->span,
+                                           "this light is there twice: it costs twice as much as "
+                                           "one of twice the intensity");
+        diag_label_made(e, first->span, first->frame, "the first is here");
+    }
+    l->diag->frame = NULL;
+    vec_free(&firsts);
+    vec_free(&t.one.list);
     map_free(&t.materials);
     arena_free(&t.arena);
 }

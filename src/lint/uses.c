@@ -6,6 +6,7 @@
  * last. */
 #include "config.h"
 
+#include "eval/signature.h"
 #include "lint/checks.h"
 
 struct definition {
@@ -130,6 +131,15 @@ static void report_hiding(struct walk *w, const struct definition *inner)
     diag_label(entry, outer->span, "the outer one is here");
 }
 
+/* A function hides one of the language; of values a reader knows pi only. */
+static void report_hiding_language(struct walk *w, const struct definition *d)
+{
+    bool function = d->node->kind == AST_FN || d->node->kind == AST_DEFINE;
+    if (d->here && (function ? signature_is_function(d->name) : str_is(d->name, "pi")))
+        diag_report(w->l->diag, DIAG_SHADOWED_NAME, d->span, "'%.*s' hides the one of the language",
+                    STR_ARG(d->name));
+}
+
 static struct definition *define(struct walk *w, const struct ast_node *node, bool varies)
 {
     struct definition *d = arena_zalloc(&w->arena, 1, sizeof *d);
@@ -140,6 +150,7 @@ static struct definition *define(struct walk *w, const struct ast_node *node, bo
                              .varies = varies || !w->here,
                              .used = is_overridden(w, node->name_span)};
     report_hiding(w, d);
+    report_hiding_language(w, d);
     add(w, d);
     return d;
 }
@@ -150,6 +161,17 @@ static void open(struct walk *w, struct region *r, struct region *parent)
 {
     *r = (struct region){.parent = parent, .end = &r->first};
     w->region = r;
+}
+
+/* One whose name begins with '_' is not meant to be used. */
+static void report_parameters(struct walk *w, const struct region *body)
+{
+    for (const struct entry *e = body->first; e; e = e->next) {
+        const struct definition *d = e->definition;
+        if (d->node->kind == AST_PARAMETER && !d->used && d->here && !w->lost && *d->name.at != '_')
+            diag_report(w->l->diag, DIAG_UNUSED_PARAMETER, d->span,
+                        "the parameter '%.*s' is never used", STR_ARG(d->name));
+    }
 }
 
 /* The values parameters have of themselves, and the body. */
@@ -165,6 +187,7 @@ static void run_body(struct walk *w, struct definition *d, struct region *home)
         define(w, n, true);
     }
     visit(w, n);
+    report_parameters(w, &inner);
     w->makes = makes;
     d->running = false;
     vec_free(&inner.bodies); /* a body's own were walked with its statements */
@@ -483,4 +506,52 @@ void lint_unused_textures(const struct lint *l)
             diag_report(l->diag, DIAG_UNUSED_TEXTURE, d->textures.at[i]->span,
                         "texture %zu is never used", i);
     free(used);
+}
+
+/* ---- what `default` gives ---- */
+
+static struct str place_of(const struct desc_prop *p)
+{
+    return (struct str){(const char *)&p->value.span, sizeof p->value.span};
+}
+
+static void mark_taken(struct map *taken, struct desc_object *const *objects, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        for (const struct desc_prop *p = objects[i]->props; p; p = p->next)
+            if (p->inherited)
+                map_set(taken, place_of(p), taken);
+}
+
+static bool is_taken(const struct map *taken, const struct desc_object *o)
+{
+    for (const struct desc_prop *p = o->props; p; p = p->next)
+        if (map_get(taken, place_of(p)))
+            return true;
+    return false;
+}
+
+/* One in a template counts as used when any use of the template made it so. */
+void lint_unused_defaults(const struct lint *l)
+{
+    const struct desc *d = l->desc;
+    struct map taken = {0};
+    if (!d->defaults.n || desc_is_part(d, l->ast))
+        return;
+    mark_taken(&taken, d->textures.at, d->textures.n);
+    mark_taken(&taken, d->materials.at, d->materials.n);
+    mark_taken(&taken, d->lights.at, d->lights.n);
+    mark_taken(&taken, d->surfaces.at, d->surfaces.n);
+    mark_taken(&taken, &d->camera, d->camera != NULL);
+    mark_taken(&taken, &d->settings, d->settings != NULL);
+    for (size_t i = 0; i < d->defaults.n; i++) {
+        const struct desc_object *o = d->defaults.at[i];
+        if (!lint_is_here(l, o->span) || is_taken(&taken, o))
+            continue;
+        l->diag->frame = o->frame;
+        diag_report(l->diag, DIAG_UNUSED_DEFAULT, o->span,
+                    "no %s takes anything from this 'default'", schema_kind_name(o->kind, o->xml));
+    }
+    l->diag->frame = NULL;
+    map_free(&taken);
 }

@@ -17,6 +17,22 @@ static double vertical_angle(const struct desc_object *o)
     return 2 * atan(half) * (180 / PI);
 }
 
+/* A right angle in radians is 1.57. */
+static void check_unit(const struct lint *l, const struct desc_object *o)
+{
+    const struct desc_value *fov = lint_own(o, PROP_FOV);
+    if (!fov || fov->number[0] >= LINT(LEAST_DEGREES))
+        return;
+    struct str text = srcmap_text(l->sources, fov->span);
+    if (!lint_is_spelt_out(text))
+        return;
+    struct diag_entry *e =
+        diag_report(l->diag, DIAG_FOV_IN_RADIANS, fov->span,
+                    "a field of view of %.4g degrees is next to nothing", fov->number[0]);
+    diag_note(e, "numbers without a unit are degrees: %.*srad is %.4g of them", STR_ARG(text),
+              fov->number[0] * (180 / PI));
+}
+
 void lint_view(const struct lint *l)
 {
     const struct desc_object *o = l->desc->camera;
@@ -29,6 +45,8 @@ void lint_view(const struct lint *l)
                     "the picture shows %.4g degrees from bottom to top, which %s", angle,
                     angle < LINT(NARROWEST_VIEW) ? "leaves almost nothing to see"
                                                  : "draws out whatever is near its edges");
+    else
+        check_unit(l, o);
     struct vec3 size = desc_vector(o, PROP_RESOLUTION);
     double longer = fmax(size.x, size.y), shorter = fmin(size.x, size.y);
     if (longer / shorter > LINT(LONGEST_PICTURE))
