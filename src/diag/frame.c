@@ -86,6 +86,7 @@ void diag_label_made(struct diag_entry *e, struct span span, const struct diag_f
     enum { MOST = 4 };
     int n = 0;
     diag_label(e, span, "%s", text);
-    for (const struct diag_frame *f = innermost; f && n < MOST; f = f->parent, n++)
+    for (const struct diag_frame *f = diag_frame_told(innermost); f && n < MOST;
+         f = next_told(f), n++)
         diag_label(e, f->at, "that one is made %s here", words_of(e->owner, f));
 }
