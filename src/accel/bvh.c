@@ -2,6 +2,9 @@
 
 #include "accel/wide.h"
 
+#include "base/thread.h"
+
+#include <stdatomic.h>
 #include <string.h>
 
 /* Binned surface area heuristic (Wald, On fast construction of SAH-based bounding volume
@@ -16,12 +19,22 @@ enum {
 /* Cost of visiting a node over that of testing a primitive. */
 #define NODE_COST 1.0
 
+/* A run of primitives that is to become the child of a node. */
+struct branch {
+    uint32_t parent, begin, end;
+    int child, depth;
+};
+
 struct builder {
+    const struct geometry *geometry;
     struct box *boxes;    /* by primitive */
     struct vec3 *centers; /* of the boxes */
     uint32_t *order;      /* primitives; runs of it become nodes */
     struct bvh_node *nodes;
-    uint32_t node_count;
+    atomic_uint node_count;
+    bool wide;               /* a leaf of a wide tree is to come: so many triangles stay together */
+    uint32_t small;          /* branches of fewer are left for threads to share */
+    VEC(struct branch) left; /* those left */
 };
 
 struct bin {
@@ -110,12 +123,20 @@ static uint32_t partition(struct builder *w, const struct binning *b, const stru
     return begin;
 }
 
+static bool all_triangles(const struct builder *w, uint32_t begin, uint32_t end)
+{
+    for (uint32_t i = begin; i < end; i++)
+        if (w->geometry->prims.at[w->order[i]].kind != PRIM_TRIANGLE)
+            return false;
+    return true;
+}
+
 /* Where to split [begin, end), or `end` to leave it a leaf. */
 static uint32_t choose_split(struct builder *w, struct box box, uint32_t begin, uint32_t end,
                              int depth)
 {
     uint32_t n = end - begin, middle = begin + n / 2;
-    if (n == 1)
+    if (n == 1 || (w->wide && n <= WIDE && all_triangles(w, begin, end)))
         return end;
     if (depth >= SAH_DEPTH)
         return n <= LEAF_LIMIT ? end : middle;
@@ -150,33 +171,61 @@ static void set_child(struct bvh_node *node, int child, struct box box, uint32_t
     node->count[child] = count;
 }
 
-/* Fills in one child of a node with the run [begin, end); recursion is at most BVH_DEPTH_LIMIT
- * deep. */
-static void build_child(struct builder *w, uint32_t parent, int child, uint32_t begin, uint32_t end,
-                        int depth)
+/* Fills in one child of a node; recursion is at most BVH_DEPTH_LIMIT deep. */
+static void build_branch(struct builder *w, struct branch b)
 {
-    struct box box = run_box(w, begin, end);
-    uint32_t middle = begin < end ? choose_split(w, box, begin, end, depth) : end;
-    if (middle == end) {
-        set_child(&w->nodes[parent], child, box, begin, end - begin);
+    if (b.end - b.begin < w->small) {
+        vec_push(&w->left, b);
         return;
     }
-    uint32_t node = w->node_count++;
-    set_child(&w->nodes[parent], child, box, node, 0);
-    build_child(w, node, 0, begin, middle, depth + 1);
-    build_child(w, node, 1, middle, end, depth + 1);
+    struct box box = run_box(w, b.begin, b.end);
+    uint32_t middle = b.begin < b.end ? choose_split(w, box, b.begin, b.end, b.depth) : b.end;
+    if (middle == b.end) {
+        set_child(&w->nodes[b.parent], b.child, box, b.begin, b.end - b.begin);
+        return;
+    }
+    uint32_t node = atomic_fetch_add_explicit(&w->node_count, 1, memory_order_relaxed);
+    set_child(&w->nodes[b.parent], b.child, box, node, 0);
+    build_branch(w, (struct branch){node, b.begin, middle, 0, b.depth + 1});
+    build_branch(w, (struct branch){node, middle, b.end, 1, b.depth + 1});
 }
 
-static void build_nodes(struct builder *w, uint32_t n)
+static void build_left(void *context, size_t item, unsigned worker)
+{
+    struct builder *w = context;
+    (void)worker;
+    build_branch(w, w->left.at[item]);
+}
+
+/* Above this many primitives threads pay. */
+enum { SHARED_LEAST = 10000, SHARES = 8 /* a thread */ };
+
+static void build_nodes(struct builder *w, uint32_t n, unsigned threads)
 {
     struct box all = run_box(w, 0, n);
     w->nodes = mem_alloc_aligned(n + 1, sizeof *w->nodes);
     w->node_count = 1;
+    w->small = threads > 1 && n >= SHARED_LEAST ? n / (SHARES * threads) : 0;
     uint32_t middle = n > 1 ? choose_split(w, all, 0, n, 0) : n;
-    build_child(w, 0, 0, 0, middle, 1);
     set_child(&w->nodes[0], 1, box_empty(), 0, 0);
+    build_branch(w, (struct branch){0, 0, middle, 0, 1});
     if (middle < n)
-        build_child(w, 0, 1, middle, n, 1);
+        build_branch(w, (struct branch){0, middle, n, 1, 1});
+    w->small = 0;
+    thread_share(w->left.n, threads, build_left, w);
+    vec_free(&w->left);
+}
+
+static void find_boxes(void *context, size_t item, unsigned worker)
+{
+    struct builder *w = context;
+    uint32_t n = (uint32_t)w->geometry->prims.n;
+    (void)worker;
+    for (size_t i = item * SHARED_LEAST; i < n && i < (item + 1) * SHARED_LEAST; i++) {
+        w->order[i] = (uint32_t)i;
+        w->boxes[i] = geometry_prim_bounds(w->geometry, (uint32_t)i);
+        w->centers[i] = box_center(w->boxes[i]);
+    }
 }
 
 /* Only those are ever walked that some instance takes whole. */
@@ -196,18 +245,15 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
                       const struct accel_options *options)
 {
     uint32_t n = (uint32_t)geometry->prims.n;
-    struct builder w = {.boxes = mem_alloc(n, sizeof *w.boxes),
+    struct builder w = {.geometry = geometry,
+                        .boxes = mem_alloc(n, sizeof *w.boxes),
                         .centers = mem_alloc(n, sizeof *w.centers),
-                        .order = mem_alloc(n, sizeof *w.order)};
-    struct box all = box_empty();
-    for (uint32_t i = 0; i < n; i++) {
-        w.order[i] = i;
-        w.boxes[i] = geometry_prim_bounds(geometry, i);
-        w.centers[i] = box_center(w.boxes[i]);
-        all = box_join(all, w.boxes[i]);
-    }
+                        .order = mem_alloc(n, sizeof *w.order),
+                        .wide = options->isa != ISA_PLAIN};
+    thread_share((n + SHARED_LEAST - 1) / SHARED_LEAST, options->threads, find_boxes, &w);
+    struct box all = run_box(&w, 0, n);
     if (!options->brute_force && n >= TREE_LEAST)
-        build_nodes(&w, n);
+        build_nodes(&w, n, options->threads);
     *a = (struct accel){.geometry = geometry,
                         .targets = mem_alloc(n, sizeof *a->targets),
                         .target_count = n,

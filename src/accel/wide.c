@@ -73,6 +73,12 @@ static uint32_t first_target(const struct accel *a, uint32_t source)
     return first_of(a, source);
 }
 
+/* The second child of a root whose first holds everything: no node is a child of itself. */
+static bool is_nothing(const struct accel *a, uint32_t source)
+{
+    return count_of(a, source) == 0 && first_of(a, source) == 0;
+}
+
 /* Children still to be opened, the others negative. */
 static double worth_opening(const struct accel *a, uint32_t source)
 {
@@ -88,7 +94,7 @@ static uint32_t open_children(const struct accel *a, uint32_t node, uint32_t sou
     double worth[WIDE];
     uint32_t n = 0, open = node;
     for (uint32_t place = 0;;) {
-        for (uint32_t child = 0; child < 2; child++) {
+        for (uint32_t child = 0; child < 2 && !is_nothing(a, 2 * open + child); child++) {
             uint32_t at = child == 0 ? place : n;
             source[at] = 2 * open + child;
             worth[at] = worth_opening(a, source[at]);

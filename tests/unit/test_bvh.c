@@ -284,6 +284,27 @@ START_TEST(shafts_hold_all_shadow_rays)
 }
 END_TEST
 
+/* As many as a wide leaf holds, and a few more and less. */
+START_TEST(few_triangles_agree_with_brute_force)
+{
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(5) << 30;
+    for (int i = 0; i < _i; i++)
+        add_triangle(&g, 0, random_vector(1), random_vector(1), random_vector(1));
+    struct trees trees = trees_of(&g);
+    struct accel brute;
+    accel_build(&brute, &g, true);
+    for (int i = 0; i < 500; i++) {
+        struct ray ray = any_ray(&g, 1);
+        struct hit hit;
+        compare(&trees, &brute, &ray, &hit);
+    }
+    trees_free(&trees);
+    accel_free(&brute);
+    geometry_free(&g);
+}
+END_TEST
+
 START_TEST(equal_triangles_end)
 {
     struct geometry g = {0};
@@ -539,6 +560,7 @@ Suite *bvh_suite(void)
     tcase_add_loop_test(c, shafts_hold_all_shadow_rays, 0, 10);
     tcase_add_loop_test(c, cloth_agrees_with_brute_force, 0, 10);
     tcase_add_loop_test(c, packets_see_what_single_rays_see, 0, 30);
+    tcase_add_loop_test(c, few_triangles_agree_with_brute_force, 1, 20);
     tcase_add_test(c, equal_triangles_end);
     tcase_add_test(c, nothing_is_hit_in_an_empty_geometry);
     tcase_add_test(c, closed_meshes_are_tight);
