@@ -476,7 +476,7 @@ static uint32_t some_batch(const struct trees *trees, struct vec3 at, double siz
     const struct vec3 *v = g->vertices.at + below((uint32_t)g->vertices.n - 20);
     struct vec3 eye = vec3_add(at, random_vector(40 * size)), way = random_vector(1);
     struct vec3 lamp = vec3_add(at, random_vector(40 * size));
-    double spread = size * uniform(0, 3), reach = below(2) ? 1 : 1 - 0x1p-32;
+    double spread = below(3) ? size * uniform(0, 3) : 0, reach = below(2) ? 1 : 1 - 0x1p-32;
     uint32_t kind = below(5), n = 0, wanted = 4 + below(BATCH - 3);
     bool strange = below(10) == 0;
     for (uint32_t i = 0; i < 3 * BATCH && n < wanted; i++) {
