@@ -180,8 +180,8 @@ void parser_trail(struct parser *p, int token);
 int parser_walrus(struct parser *p, struct span span);
 /* Bytes of a string without end, from its quote on: what closes a bracket is no part of it. */
 size_t parser_endless_string(const char *at, size_t n);
-/* An angle whose unit stands apart. */
-void parser_far_unit(struct parser *p, struct span span, struct str number);
+/* The token of an angle whose unit stands apart; 0 where the word behind the number is a name. */
+int parser_far_unit(struct parser *p, struct span span, struct str number);
 void parser_single_quotes(struct parser *p, struct span span, struct str text);
 void parser_degree_sign(struct parser *p, struct span span);
 /* A number with a unit that is none. */

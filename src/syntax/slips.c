@@ -98,13 +98,53 @@ size_t parser_endless_string(const char *at, size_t n)
     return n;
 }
 
-void parser_far_unit(struct parser *p, struct span span, struct str number)
+static const char *skip_gap(const char *at)
 {
-    struct str unit = srcmap_text(p->diag->sources, (struct span){span.end - 3, span.end});
+    for (;;) {
+        at += strspn(at, " \t\r\n");
+        bool block = at[0] == '/' && at[1] == '*';
+        if (!block && !(at[0] == '/' && at[1] == '/'))
+            return at;
+        const char *end = strstr(at + 2, block ? "*/" : "\n");
+        if (!end)
+            return at;
+        at = end + (block ? 2 : 1);
+    }
+}
+
+static const char *skip_name(const char *at)
+{
+    while (((*at | 32) >= 'a' && (*at | 32) <= 'z') || (*at >= '0' && *at <= '9') || *at == '_')
+        at++;
+    return at;
+}
+
+/* The word before begins a definition, a property, an object or a use. */
+static bool is_name_of_something(const char *behind)
+{
+    const char *next = skip_gap(behind), *end = skip_name(next);
+    if (next == behind && end != next)
+        return true; /* it goes on */
+    if (end == next)
+        return *next && strchr("({:=", *next);
+    for (int words = 1; end != next && words < 4; words++) {
+        next = skip_gap(end);
+        end = skip_name(next);
+    }
+    return *next == '{';
+}
+
+int parser_far_unit(struct parser *p, struct span span, struct str number)
+{
+    native_release(p->scanner);
+    if (is_name_of_something(p->source->text + (p->at - p->source->base)))
+        return 0;
+    struct str unit = {number.at + number.n, 3};
     struct diag_entry *e =
         diag_report(p->diag, DIAG_SYNTAX, span, "a unit stands right behind its number");
     number = str_trim(number);
     diag_fix(e, span, DIAG_FIX_SAFE, "%.*s%.*s", STR_ARG(number), STR_ARG(unit));
+    return str_is(unit, "deg") ? TOKEN_DEGREES : TOKEN_RADIANS;
 }
 
 void parser_single_quotes(struct parser *p, struct span span, struct str text)
