@@ -145,7 +145,7 @@ START_TEST(trees_agree_with_brute_force)
     struct accel brute;
     accel_build(&brute, &g, true);
     ck_assert(brute.nodes == NULL);
-    for (int i = 0; i < TRIES(4000); i++) {
+    for (int i = 0; i < TRIES(2000); i++) {
         struct ray ray = any_ray(&g, size);
         struct hit hit;
         compare(&trees, &brute, &ray, &hit);
@@ -516,7 +516,7 @@ START_TEST(packets_see_what_single_rays_see)
         add_any(&g, i, size);
     struct trees trees = trees_of(&g);
     uint32_t traced = 0, tried = 0;
-    for (int round = 0; round < TRIES(300); round++) {
+    for (int round = 0; round < TRIES(150); round++) {
         struct ray rays[BATCH];
         struct hit expected[BATCH];
         struct ray_batch batch;

@@ -291,7 +291,7 @@ END_TEST
 /* Every point of a shape's surface is in the box, and the box is not larger than need be. */
 START_TEST(boxes_are_tight)
 {
-    for (int i = 0; i < TRIES(2000); i++) {
+    for (int i = 0; i < TRIES(800); i++) {
         struct geometry g = {0};
         struct affine map = random_map(1, 30, 3);
         add_any(&g, 0, _i, &map);

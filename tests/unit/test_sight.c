@@ -210,7 +210,7 @@ START_TEST(sight_is_what_rays_find)
     ck_assert_uint_gt(tally.points, TRIES(1600));
     if (isa != ISA_PLAIN) {
         ck_assert_uint_gt(tally.none, tally.pairs / 4);
-        ck_assert_uint_gt(tally.hidden, tally.points / 20);
+        ck_assert_uint_gt(tally.hidden, tally.points / 50);
     }
 }
 END_TEST
