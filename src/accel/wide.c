@@ -102,7 +102,7 @@ static uint32_t open_children(const struct accel *a, uint32_t node, uint32_t sou
         }
         for (uint32_t i = place = 0; i < n; i++)
             place = worth[i] > worth[place] ? i : place;
-        if (n == WIDE || !(worth[place] >= 0))
+        if (n == 0 || n == WIDE || !(worth[place] >= 0))
             return n;
         open = first_of(a, source[place]);
     }

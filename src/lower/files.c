@@ -93,6 +93,7 @@ static const double *decoding_of(struct lowering *l, const struct image *image)
     const double **table = image->data8 ? &l->decode8 : &l->decode16;
     uint32_t n = image->data8 ? 256 : 65536;
     if (*table)
+        /* cppcheck-suppress identicalInnerCondition */
         return *table;
     double *values = arena_zalloc(&l->scene->arena, n, sizeof *values);
     for (uint32_t i = 0; i < n; i++)

@@ -182,6 +182,7 @@ bool transport_send(struct transport *t, const json_t *message)
     char *text = json_dumps(message, JSON_COMPACT);
     if (!text)
         mem_exhausted(0);
+    /* cppcheck-suppress nullPointerRedundantCheck */
     size_t n = strlen(text);
     buffer_printf(&frame, "Content-Length: %zu\r\n\r\n", n);
     buffer_add(&frame, text, n);

@@ -82,6 +82,7 @@ const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
         uint32_t j = o->height - 1 - row;
         double up = camera_place(camera, j + sample->y, o->height);
         for (uint32_t i = tile->x0; i < tile->x1; i++, n++) {
+            /* cppcheck-suppress uninitvar */
             x[n] = columns[i - tile->x0];
             y[n] = up;
             if (o->jitter)
