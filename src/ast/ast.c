@@ -226,3 +226,16 @@ bool ast_is_damaged(const struct ast_node *node)
         damaged = c->kind == AST_ERROR;
     return damaged;
 }
+
+size_t ast_trivia_from(const struct ast *ast, uint32_t at)
+{
+    size_t low = 0, high = ast->trivia.n;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (ast->trivia.at[middle].span.begin < at)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}

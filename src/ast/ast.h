@@ -182,6 +182,9 @@ struct span ast_value_span(const struct ast_node *property);
 
 size_t ast_count(const struct ast_node *first);
 
+/* The number of the first comment that begins there or later. */
+size_t ast_trivia_from(const struct ast *ast, uint32_t at);
+
 /* True when some of the node did not parse: what follows may belong to it. */
 bool ast_is_damaged(const struct ast_node *node);
 

@@ -3,6 +3,7 @@
 #include "convert/names.h"
 
 #include "schema/schema.h"
+#include "syntax/syntax.h"
 
 static bool is_letter(char c)
 {
@@ -24,17 +25,6 @@ static bool is_identifier(struct str s)
     return true;
 }
 
-static bool is_keyword(struct str s)
-{
-    static const char *const words[] = {"wrt",      "model",   "include", "param",  "let",    "fn",
-                                        "material", "texture", "default", "define", "assert", "for",
-                                        "in",       "if",      "else",    "true",   "false"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (str_is(s, words[i]))
-            return true;
-    return false;
-}
-
 /* What makes objects, and what means something of its own in a value. */
 static bool has_meaning(struct str s)
 {
@@ -46,7 +36,7 @@ static bool has_meaning(struct str s)
 
 bool name_is_free(struct str text)
 {
-    return is_identifier(text) && !is_keyword(text);
+    return is_identifier(text) && !syntax_is_keyword(text);
 }
 
 /* Letters and digits of the text, with `_` for runs of other bytes. */
@@ -67,8 +57,8 @@ static struct str made_identifier(struct names *n, struct str text)
 static struct str free_variant(struct names *n, struct str name)
 {
     struct str variant = name;
-    for (unsigned i = 2; map_get(&n->taken, variant) || is_keyword(variant) || has_meaning(variant);
-         i++) {
+    for (unsigned i = 2;
+         map_get(&n->taken, variant) || syntax_is_keyword(variant) || has_meaning(variant); i++) {
         const char *text = arena_printf(n->arena, "%.*s_%u", STR_ARG(name), i);
         variant = str_of(text);
     }

@@ -113,20 +113,6 @@ static bool ends_line(const struct source *s, uint32_t at)
     return at == s->base + s->n || s->text[at - s->base] == '\n';
 }
 
-/* The number of the first comment that begins there or later. */
-static size_t comment_from(const struct ast *ast, uint32_t at)
-{
-    size_t low = 0, high = ast->trivia.n;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (ast->trivia.at[middle].span.begin < at)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static bool is_allow(const struct lint *l, const struct trivia *comment)
 {
     static const char mark[] = "wrt: allow(";
@@ -137,7 +123,7 @@ static bool is_allow(const struct lint *l, const struct trivia *comment)
 /* Behind the comment that begins at `at` and is the last thing on that line; else `at`. */
 static uint32_t skip_last_comment(const struct lint *l, const struct source *s, uint32_t at)
 {
-    size_t i = comment_from(l->ast, at);
+    size_t i = ast_trivia_from(l->ast, at);
     if (i == l->ast->trivia.n || l->ast->trivia.at[i].span.begin != at)
         return at;
     struct span c = l->ast->trivia.at[i].span;
@@ -150,7 +136,7 @@ static uint32_t skip_last_comment(const struct lint *l, const struct source *s, 
  * here; else `line`. */
 static uint32_t allow_before(const struct lint *l, const struct source *s, uint32_t line)
 {
-    size_t i = comment_from(l->ast, line);
+    size_t i = ast_trivia_from(l->ast, line);
     const struct trivia *c = i ? &l->ast->trivia.at[i - 1] : NULL;
     if (!c || skip_blanks(s, c->span.end) + 1 != line || !is_allow(l, c))
         return line;
@@ -196,7 +182,7 @@ static struct span removal(const struct lint *l, const struct source *s, struct 
 static bool loses_comment(const struct lint *l, struct span span)
 {
     const struct ast *ast = l->ast;
-    for (size_t i = comment_from(ast, span.begin);
+    for (size_t i = ast_trivia_from(ast, span.begin);
          i < ast->trivia.n && ast->trivia.at[i].span.begin < span.end; i++)
         if (!is_allow(l, &ast->trivia.at[i]))
             return true;

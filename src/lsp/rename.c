@@ -3,6 +3,8 @@
 
 #include "lsp/server.h"
 
+#include "syntax/syntax.h"
+
 /* The definition under the cursor that may be renamed; BINDING_NONE after server_fail. */
 static size_t renamed(struct server *s, const struct wire_place *place, struct span *span)
 {
@@ -41,17 +43,6 @@ static bool is_word(struct str name)
     return word;
 }
 
-static bool is_reserved(struct str name)
-{
-    static const char keywords[] = "wrt model let param material texture true false include fn "
-                                   "default define assert for in if else";
-    struct str word;
-    for (unsigned i = 0; (word = str_nth_word(keywords, i)).n; i++)
-        if (str_equal(word, name))
-            return true;
-    return false;
-}
-
 /* Whether the name means something else wherever this one is seen: both would be mixed up. */
 static bool is_taken(const struct bindings *b, size_t def, struct str name)
 {
@@ -72,7 +63,7 @@ static bool check_name(struct server *s, const struct analysis *a, size_t def, s
                            : is_word(name);
     if (!fits)
         server_fail(s, RPC_INVALID_PARAMS, "'%.100s' is no name", name.at);
-    else if (!a->ast.xml && is_reserved(name))
+    else if (!a->ast.xml && syntax_is_keyword(name))
         server_fail(s, RPC_INVALID_PARAMS, "'%.*s' is a word of the language", STR_ARG(name));
     else if (is_taken(&a->bindings, def, name))
         server_fail(s, RPC_FAILED, "'%.100s' is defined already", name.at);

@@ -19,15 +19,8 @@ static bool is_blank(char c)
 
 struct gap gap_at(const struct ast *ast, uint32_t offset)
 {
-    size_t first = 0, last = ast->trivia.n; /* the first comment not before the place */
-    while (first < last) {
-        size_t middle = first + (last - first) / 2;
-        if (ast->trivia.at[middle].span.begin < offset)
-            first = middle + 1;
-        else
-            last = middle;
-    }
-    return (struct gap){.ast = ast, .at = offset, .comment = first, .separators = ""};
+    return (struct gap){
+        .ast = ast, .at = offset, .comment = ast_trivia_from(ast, offset), .separators = ""};
 }
 
 static void skip_blanks(struct gap *g)

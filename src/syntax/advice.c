@@ -2,21 +2,11 @@
 #include "config.h"
 
 #include "syntax/parser.h"
+#include "syntax/syntax.h"
 
 #include "grammar/scene.tab.h"
 
 #include <string.h>
-
-static bool is_keyword(struct str word)
-{
-    static const char *const words[] = {"wrt",     "model",  "include", "param",    "let",    "fn",
-                                        "default", "define", "assert",  "for",      "in",     "if",
-                                        "else",    "true",   "false",   "material", "texture"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (str_is(word, words[i]))
-            return true;
-    return false;
-}
 
 /* A value or a name, as far as its first character tells. */
 static bool begins_item(struct str found)
@@ -161,7 +151,7 @@ void parser_advise(const struct parser *p, struct diag_entry *e, struct span spa
         closing |= strcmp(expected[i], "')'") == 0 || strcmp(expected[i], "']'") == 0;
     }
     bool later = parser_on_later_line(p, span);
-    bool item = begins_item(found) && !later && !is_keyword(found) && !names_member(p, span);
+    bool item = begins_item(found) && !later && !syntax_is_keyword(found) && !names_member(p, span);
     const char *ours = later ? NULL : foreign_statement(p, span);
     if (ours)
         diag_note(e, "%s", ours);
@@ -187,6 +177,6 @@ void parser_advise(const struct parser *p, struct diag_entry *e, struct span spa
         diag_note(e, "a template is written 'define name(...) { ... }'");
     else if (str_is(found, "if") && !later)
         diag_note(e, "a choice between values is written 'condition ? one : other'");
-    else if (name && !brace && is_keyword(found) && !later)
+    else if (name && !brace && syntax_is_keyword(found) && !later)
         diag_note(e, "'%.*s' is a word of the language, so it cannot be a name", STR_ARG(found));
 }

@@ -32,6 +32,9 @@ const struct source *syntax_take(struct srcmap *sources, const char *path, char 
 /* True when the text is an XML document: its first character is `<`. */
 bool syntax_is_xml(struct str text);
 
+/* True for words that native text cannot have as names. */
+bool syntax_is_keyword(struct str word);
+
 /* Parses a source into *out (initialised here; free with ast_free even after errors).  All
  * independent errors are reported; true when there were none. */
 bool syntax_parse(const struct source *source, struct ast *out, struct diag *diag);

@@ -2,6 +2,7 @@
 #include "config.h"
 
 #include "syntax/parser.h"
+#include "syntax/syntax.h"
 
 #include "grammar/scene.tab.h"
 
@@ -147,4 +148,15 @@ int scene_lex(SCENE_STYPE *value, struct span *span, struct parser *p)
             p, DIAG_SCENE_TOO_LARGE, *span,
             "the text has more elements or values than can be held, so the rest is not read");
     return p->stopped ? TOKEN_END : token;
+}
+
+bool syntax_is_keyword(struct str word)
+{
+    static const char keywords[] = "wrt model let param material texture true false include fn "
+                                   "default define assert for in if else";
+    struct str keyword;
+    for (unsigned i = 0; (keyword = str_nth_word(keywords, i)).n; i++)
+        if (str_equal(keyword, word))
+            return true;
+    return false;
 }
