@@ -15,7 +15,8 @@
 
 bool frame_late(const struct frame *f, unsigned worker)
 {
-    return f->deadline < INFINITY && thread_seconds() + f->longest[worker] > f->deadline;
+    return f->deadline < INFINITY && (render_stopped(f->tracer->options) ||
+                                      thread_seconds() + f->longest[worker] > f->deadline);
 }
 
 void frame_report(struct frame *f, unsigned worker)
@@ -27,7 +28,7 @@ void frame_report(struct frame *f, unsigned worker)
     if (f->deadline < INFINITY)
         p->report(p->context, (thread_seconds() - f->started) / (f->deadline - f->started));
     else
-        p->report(p->context, (double)done / f->work);
+        p->report(p->context, fmin((double)done / f->work, 1));
 }
 
 void frame_trace(struct frame *f, unsigned worker, double *x, double *y, uint32_t n)
@@ -65,7 +66,7 @@ static void place_halo(struct frame *f)
     f->tiling = tiling_of(f->crop.x0, f->crop.y0, f->crop.x1, f->crop.y1);
 }
 
-static struct frame *frame_new(const struct tracer *t, struct worker **workers, struct picture *out)
+struct frame *adaptive_new(const struct tracer *t, struct worker **workers, struct picture *out)
 {
     const struct render_options *o = t->options;
     struct frame *f = mem_zalloc(1, sizeof *f);
@@ -82,14 +83,12 @@ static struct frame *frame_new(const struct tracer *t, struct worker **workers, 
         f->error[i] = INFINITY;
     f->tallies = mem_zalloc(f->tiling.n, sizeof *f->tallies);
     f->order = mem_alloc(f->tiling.n, sizeof *f->order);
-    for (size_t i = 0; i < f->tiling.n; i++)
-        f->order[i] = i;
     f->refiners = mem_zalloc(o->threads, sizeof(struct refiner *));
     f->longest = mem_zalloc(o->threads, sizeof *f->longest);
     f->started = thread_seconds();
     f->deadline =
         o->deadline > 0 ? o->deadline - PICTURE_S * (double)pixels / o->threads : INFINITY;
-    f->work = (double)f->tiling.n * 3;
+    f->work = 3 * (double)(o->watch.tiles ? o->watch.tiles : f->tiling.n);
     return f;
 }
 
@@ -115,6 +114,46 @@ static void refine_tiles(struct frame *f, double target, size_t tiles)
     thread_share(tiles, f->tracer->options->threads, refine_tile, f);
 }
 
+/* ---- a part at a time ------------------------------------------------------------------------ */
+
+/* Whether first samples are wanted of the tile's pixels and those around it: what becomes of the
+ * tile depends on them. */
+static void want_tile(struct frame *f, const struct tile *tile, bool wanted)
+{
+    struct tile t = {tile->x0 - (tile->x0 > 0), tile->y0 - (tile->y0 > 0),
+                     tile->x1 + (tile->x1 < f->width), tile->y1 + (tile->y1 < f->height)};
+    for (uint32_t y = t.y0; y < t.y1; y++)
+        for (uint32_t x = t.x0; x < t.x1; x++)
+            f->middle[frame_pixel(f, x, y)].wanted = wanted;
+    for (uint32_t y = t.y0; y <= t.y1; y++)
+        for (uint32_t x = t.x0; x <= t.x1; x++)
+            f->corner[(size_t)y * (f->width + 1) + x].wanted = wanted;
+    struct tile *a = &f->area;
+    *a = (struct tile){t.x0 < a->x0 ? t.x0 : a->x0, t.y0 < a->y0 ? t.y0 : a->y0,
+                       t.x1 > a->x1 ? t.x1 : a->x1, t.y1 > a->y1 ? t.y1 : a->y1};
+}
+
+static void want_tiles(struct frame *f, const size_t *tiles, size_t n, bool wanted)
+{
+    f->area = (struct tile){f->width, f->height, 0, 0};
+    for (size_t i = 0; i < n; i++) {
+        struct tile tile = tiling_at(&f->tiling, tiles[i]);
+        want_tile(f, &tile, wanted);
+    }
+}
+
+/* All that becomes of these tiles but what is known already. */
+static void render_tiles(struct frame *f, const size_t *tiles, size_t n)
+{
+    memcpy(f->order, tiles, n * sizeof *tiles);
+    want_tiles(f, tiles, n, true);
+    first_middles(f, 1, false);
+    first_corners(f);
+    first_errors(f);
+    refine_tiles(f, f->tracer->options->adaptive, n);
+    want_tiles(f, tiles, n, false);
+}
+
 /* ---- in a limited time ----------------------------------------------------------------------- */
 
 /* How much there is to gain by a tile; more than of any known where not all of it is known. */
@@ -138,7 +177,7 @@ static size_t order_tiles(struct frame *f, double target)
     size_t n = 0;
     for (size_t i = 0; i < f->tiling.n; i++) {
         const struct tally *t = &f->tallies[i];
-        if (t->unknown > 0 || t->doubt > target)
+        if (t->pixels == 0 || t->unknown > 0 || t->doubt > target)
             ranks[n++] = (struct rank){i, t->unknown > 0 ? INFINITY : t->squares};
     }
     qsort(ranks, n, sizeof *ranks, compare_ranks);
@@ -159,7 +198,7 @@ static void render_until(struct frame *f)
         first_middles(f, stride, stride < COARSEST);
     first_corners(f);
     first_errors(f);
-    refine_tiles(f, INFINITY, f->tiling.n);
+    refine_tiles(f, INFINITY, order_tiles(f, -1));
     for (double target = 1.0 / STEP;; target = fmax(target / STEP, wanted)) {
         refine_tiles(f, target, order_tiles(f, target));
         if (target <= wanted || frame_late(f, 0))
@@ -170,11 +209,11 @@ static void render_until(struct frame *f)
 static struct adaptive_stats frame_stats(const struct frame *f)
 {
     struct adaptive_stats stats = {0};
-    double squares = 0, known = (double)f->out->width * f->out->height;
+    double squares = 0, known = 0;
     for (size_t i = 0; i < f->tiling.n; i++) {
         const struct tally *t = &f->tallies[i];
         squares += t->squares;
-        known -= t->unknown;
+        known += (double)t->pixels - t->unknown;
         stats.unfinished += t->unknown;
         stats.worst = fmax(stats.worst, t->worst);
         stats.most = t->most > stats.most ? t->most : stats.most;
@@ -183,18 +222,31 @@ static struct adaptive_stats frame_stats(const struct frame *f)
     return stats;
 }
 
-struct adaptive_stats render_adaptive(const struct tracer *t, struct worker **workers,
-                                      struct picture *out)
+/* Tiles that nobody waits for are rendered all at once; others so many at a time that threads wait
+ * little for each other, and that not much is lost when the work ends early. */
+void adaptive_tiles(struct frame *f, const size_t *tiles, size_t n)
 {
-    struct frame *f = frame_new(t, workers, out);
+    enum { TILES_A_THREAD = 64 };
+    size_t slice = (size_t)TILES_A_THREAD * f->tracer->options->threads;
+    size_t *all = NULL;
+    if (!tiles) {
+        tiles = all = mem_alloc(f->tiling.n, sizeof *all);
+        slice = n = f->tiling.n;
+        for (size_t i = 0; i < n; i++)
+            all[i] = i;
+    }
     if (f->deadline < INFINITY) {
+        want_tiles(f, tiles, n, true);
         render_until(f);
     } else {
-        first_middles(f, 1, false);
-        first_corners(f);
-        first_errors(f);
-        refine_tiles(f, t->options->adaptive, f->tiling.n);
+        for (size_t i = 0; i < n; i += slice)
+            render_tiles(f, tiles + i, n - i < slice ? n - i : slice);
     }
+    free(all);
+}
+
+struct adaptive_stats adaptive_end(struct frame *f)
+{
     struct adaptive_stats stats = frame_stats(f);
     frame_free(f);
     return stats;

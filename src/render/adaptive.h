@@ -3,8 +3,10 @@
 
 #include "render/tracer.h"
 
-/* Renders the crop by samples where they are needed; a worker for each thread. */
-struct adaptive_stats render_adaptive(const struct tracer *t, struct worker **workers,
-                                      struct picture *out);
+/* Samples where they are needed; a worker for each thread.  As struct rendering. */
+struct frame;
+struct frame *adaptive_new(const struct tracer *t, struct worker **workers, struct picture *out);
+void adaptive_tiles(struct frame *f, const size_t *tiles, size_t n);
+struct adaptive_stats adaptive_end(struct frame *f);
 
 #endif

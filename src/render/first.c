@@ -8,6 +8,7 @@
 struct points {
     struct frame *frame;
     struct colour *at;
+    struct tile area;
     uint32_t width, stride;
     double offset; /* from the pixel's upper left corner */
     bool may_stop;
@@ -22,42 +23,47 @@ static void sample_points(void *context, size_t number, unsigned worker)
     struct colour *to[BATCH];
     double x[BATCH_ROOM], y[BATCH_ROOM];
     uint32_t n = 0;
-    if (p->may_stop && frame_late(f, worker))
+    if ((p->may_stop && frame_late(f, worker)) || frame_given_up(f))
         return;
-    for (uint32_t j = tile.y0 * p->stride; j < tile.y1 * p->stride; j += p->stride) {
-        for (uint32_t i = tile.x0 * p->stride; i < tile.x1 * p->stride; i += p->stride) {
+    for (uint32_t row = tile.y0; row < tile.y1; row++) {
+        for (uint32_t column = tile.x0; column < tile.x1; column++) {
+            uint32_t i = p->area.x0 + column * p->stride, j = p->area.y0 + row * p->stride;
             to[n] = &p->at[(size_t)j * p->width + i];
             x[n] = i + p->offset;
             y[n] = j + p->offset;
-            n += to[n]->seen ? 0 : 1;
+            n += to[n]->wanted && !to[n]->seen ? 1 : 0;
         }
     }
-    if (n > 0)
-        frame_trace(f, worker, x, y, n);
+    if (n == 0)
+        return;
+    frame_trace(f, worker, x, y, n);
     for (uint32_t k = 0; k < n; k++) {
         struct vec3 c = vec3_get(&f->workers[worker]->colours, k);
-        *to[k] = (struct colour){(float)c.x, (float)c.y, (float)c.z, true};
+        *to[k] = (struct colour){(float)c.x, (float)c.y, (float)c.z, true, true};
     }
     frame_report(f, worker);
 }
 
-static void sample_all(struct points *p, uint32_t height)
+static void sample_all(struct points *p)
 {
-    p->tiling = tiling_of(0, 0, (p->width + p->stride - 1) / p->stride,
-                          (height + p->stride - 1) / p->stride);
+    const struct tile *a = &p->area;
+    p->tiling = tiling_of(0, 0, (a->x1 - a->x0 + p->stride - 1) / p->stride,
+                          (a->y1 - a->y0 + p->stride - 1) / p->stride);
     thread_share(p->tiling.n, p->frame->tracer->options->threads, sample_points, p);
 }
 
 void first_middles(struct frame *f, uint32_t stride, bool may_stop)
 {
-    struct points p = {f, f->middle, f->width, stride, 0.5, may_stop, {{0}, 0, 0}};
-    sample_all(&p, f->height);
+    struct points p = {f, f->middle, f->area, f->width, stride, 0.5, may_stop, {{0}, 0, 0}};
+    sample_all(&p);
 }
 
 void first_corners(struct frame *f)
 {
-    struct points p = {f, f->corner, f->width + 1, 1, 0, true, {{0}, 0, 0}};
-    sample_all(&p, f->height + 1);
+    const struct tile *a = &f->area;
+    struct tile corners = {a->x0, a->y0, a->x1 + 1, a->y1 + 1};
+    struct points p = {f, f->corner, corners, f->width + 1, 1, 0, true, {{0}, 0, 0}};
+    sample_all(&p);
 }
 
 static struct vec3 vec3_of(const struct colour *c)
@@ -93,11 +99,13 @@ static void judge_row(void *context, size_t row, unsigned worker)
 {
     struct frame *f = context;
     bool noisy = f->tracer->options->jitter;
-    uint32_t y = (uint32_t)row;
+    uint32_t y = f->area.y0 + (uint32_t)row;
     (void)worker;
-    for (uint32_t x = 0; x < f->width; x++) {
+    for (uint32_t x = f->area.x0; x < f->area.x1; x++) {
         struct first first;
         double error = INFINITY;
+        if (!f->middle[frame_pixel(f, x, y)].wanted)
+            continue;
         if (first_of_pixel(f, x, y, &first)) {
             struct estimate e = cubature_estimate(first.corner, first.middle, noisy);
             error = stored_error(f, &e);
@@ -108,5 +116,5 @@ static void judge_row(void *context, size_t row, unsigned worker)
 
 void first_errors(struct frame *f)
 {
-    thread_share(f->height, f->tracer->options->threads, judge_row, f);
+    thread_share(f->area.y1 - f->area.y0, f->tracer->options->threads, judge_row, f);
 }

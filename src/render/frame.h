@@ -11,15 +11,16 @@
 /* A first sample. */
 struct colour {
     float r, g, b;
-    bool seen; /* it has been taken */
+    bool seen;   /* it has been taken */
+    bool wanted; /* it is to be */
 };
 
 /* What is found out of a tile's pixels. */
 struct tally {
-    double squares, worst; /* of the known errors: sum of squares, and the largest */
-    double doubt;          /* the largest (see refine.c) */
-    uint32_t most;         /* samples */
-    uint32_t unknown;      /* pixels without all first samples */
+    double squares, worst;    /* of the known errors: sum of squares, and the largest */
+    double doubt;             /* the largest (see refine.c) */
+    uint32_t most;            /* samples */
+    uint32_t pixels, unknown; /* those of the tile; those without all first samples */
 };
 
 /* What a thread works with (refine.c). */
@@ -37,6 +38,7 @@ struct frame {
     uint32_t width, height;         /* of the halo */
     struct tile crop;               /* in the halo */
     struct tiling tiling;           /* of the crop */
+    struct tile area;               /* all that is wanted lies in it; in the halo */
     struct colour *corner, *middle; /* by row from the top; a row has one corner more */
     float *first_error;             /* of each pixel, by its first samples; infinite without them */
     float *error;                   /* by all samples so far */
@@ -56,6 +58,12 @@ void frame_report(struct frame *f, unsigned worker);
 /* The colours at n <= BATCH places, in pixels, come into the worker's `colours`. */
 void frame_trace(struct frame *f, unsigned worker, double *x, double *y, uint32_t n);
 
+/* Whether nothing more is begun; in a limited time that only makes it late. */
+static inline bool frame_given_up(const struct frame *f)
+{
+    return f->deadline == INFINITY && render_stopped(f->tracer->options);
+}
+
 static inline size_t frame_pixel(const struct frame *f, uint32_t x, uint32_t y)
 {
     return (size_t)y * f->width + x;
@@ -63,11 +71,11 @@ static inline size_t frame_pixel(const struct frame *f, uint32_t x, uint32_t y)
 
 /* ---- first.c ---- */
 
-/* The middles of every stride-th pixel of every stride-th row, and all corners, where they are not
- * known yet; stops when it is late, if it may. */
+/* The middles of every stride-th pixel of every stride-th row, and all corners, where they are
+ * wanted and not known yet; stops when it is late, if it may. */
 void first_middles(struct frame *f, uint32_t stride, bool may_stop);
 void first_corners(struct frame *f);
-/* What these say of the errors. */
+/* What these say of the errors of pixels whose middles are wanted. */
 void first_errors(struct frame *f);
 
 /* The first samples of a pixel. */

@@ -263,7 +263,7 @@ static void cut_active(struct frame *f, struct refiner *r, unsigned worker)
 /* last: there is no time for more, and nobody asks for doubts. */
 static struct tally tally_of(const struct frame *f, const struct tile *tile, bool last)
 {
-    struct tally tally = {0};
+    struct tally tally = {.pixels = (uint32_t)tile_pixels(tile)};
     for (uint32_t y = tile->y0; y < tile->y1; y++) {
         for (uint32_t x = tile->x0; x < tile->x1; x++) {
             double error = f->error[frame_pixel(f, x, y)];
@@ -285,6 +285,8 @@ void refine_tile(void *context, size_t item, unsigned worker)
     struct frame *f = context;
     size_t number = f->order[item];
     struct tally *tally = &f->tallies[number];
+    if (frame_given_up(f))
+        return;
     if (!f->refiners[worker])
         f->refiners[worker] = mem_zalloc(1, sizeof **f->refiners);
     struct refiner *r = f->refiners[worker];
@@ -302,5 +304,7 @@ void refine_tile(void *context, size_t item, unsigned worker)
     bool last = f->deadline == INFINITY || frame_late(f, worker);
     *tally = tally_of(f, &r->tile, last);
     tally->most = r->most;
+    if (f->deadline == INFINITY)
+        render_tell_finished(f->tracer->options, number);
     frame_report(f, worker);
 }

@@ -8,22 +8,27 @@
 #include <stdatomic.h>
 
 /* A part of the picture cut into tiles that threads take in turn. */
-struct job {
-    const struct tracer *tracer;
+struct rendering {
+    struct tracer tracer;
     struct worker **workers; /* one a thread */
     struct picture *out;
     struct tiling tiling;
-    double range[2];     /* distances: of the nearest and the farthest hit */
-    double (*ranges)[2]; /* the same by worker, while they are being found */
-    atomic_size_t done;  /* tiles */
+    double range[2];      /* distances: of the nearest and the farthest hit */
+    double (*ranges)[2];  /* the same by worker, while they are being found */
+    const size_t *wanted; /* tiles that are rendered now; NULL: all */
+    struct frame *frame;  /* of adaptive sampling, or NULL */
+    atomic_size_t done;   /* tiles */
+    struct render_stats stats;
 };
 
-static void report_progress(struct job *job, unsigned worker)
+static void report_progress(struct rendering *r, unsigned worker)
 {
-    const struct render_progress *p = &job->tracer->options->progress;
-    size_t done = atomic_fetch_add_explicit(&job->done, 1, memory_order_relaxed) + 1;
+    const struct render_options *o = r->tracer.options;
+    const struct render_progress *p = &o->progress;
+    size_t done = atomic_fetch_add_explicit(&r->done, 1, memory_order_relaxed) + 1;
+    size_t all = o->watch.tiles ? o->watch.tiles : r->tiling.n;
     if (worker == 0 && p->report)
-        p->report(p->context, (double)done / (double)job->tiling.n);
+        p->report(p->context, (double)done / (double)all);
 }
 
 /* Adds this sample of all the tile's pixels to their sums. */
@@ -53,35 +58,39 @@ static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_b
                  vec3(colours->x[i] / samples, colours->y[i] / samples, colours->z[i] / samples));
 }
 
-static void render_tile(void *context, size_t number, unsigned worker)
+static void render_tile(void *context, size_t item, unsigned worker)
 {
-    struct job *job = context;
-    struct worker *w = job->workers[worker];
-    struct tile tile = tiling_at(&job->tiling, number);
+    struct rendering *r = context;
+    struct worker *w = r->workers[worker];
+    size_t number = r->wanted ? r->wanted[item] : item;
+    struct tile tile = tiling_at(&r->tiling, number);
     struct vec3_batch colours;
-    if (job->tracer->options->show == SHOW_PICTURE) {
+    if (render_stopped(r->tracer.options))
+        return;
+    if (r->tracer.options->show == SHOW_PICTURE) {
         sample_tile(w, &tile, &colours);
     } else {
-        struct sample sample = sample_at(job->tracer, 0, 0, 1);
+        struct sample sample = sample_at(&r->tracer, 0, 0, 1);
         const struct ray_batch *rays = camera_rays(w, &tile, &sample);
         w->stats.primary += rays->n;
-        show_batch(w, rays, job->range, job->out->bytes != NULL, &colours);
+        show_batch(w, rays, r->range, r->out->bytes != NULL, &colours);
     }
     uint32_t n = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++)
         for (uint32_t x = tile.x0; x < tile.x1; x++)
-            picture_set(job->out, x - job->tiling.whole.x0, y - job->tiling.whole.y0,
+            picture_set(r->out, x - r->tiling.whole.x0, y - r->tiling.whole.y0,
                         vec3_get(&colours, n++));
-    report_progress(job, worker);
+    render_tell_finished(r->tracer.options, number);
+    report_progress(r, worker);
 }
 
 static void find_range_of_tile(void *context, size_t number, unsigned worker)
 {
-    struct job *job = context;
-    struct worker *w = job->workers[worker];
-    struct tile tile = tiling_at(&job->tiling, number);
-    double *range = job->ranges[worker];
-    struct sample sample = sample_at(job->tracer, 0, 0, 1);
+    struct rendering *r = context;
+    struct worker *w = r->workers[worker];
+    struct tile tile = tiling_at(&r->tiling, number);
+    double *range = r->ranges[worker];
+    struct sample sample = sample_at(&r->tracer, 0, 0, 1);
     find_points(w, camera_rays(w, &tile, &sample), NULL);
     for (uint32_t k = 0; k < w->points.n; k++) {
         double t = w->points.t[k];
@@ -91,21 +100,21 @@ static void find_range_of_tile(void *context, size_t number, unsigned worker)
 }
 
 /* The distances of the whole picture, also for a crop: its greys are then those of the whole. */
-static void find_range(struct job *job)
+static void find_range(struct rendering *r)
 {
-    const struct render_options *o = job->tracer->options;
-    job->ranges = mem_alloc(o->threads, sizeof *job->ranges);
+    const struct render_options *o = r->tracer.options;
+    r->ranges = mem_alloc(o->threads, sizeof *r->ranges);
     for (unsigned i = 0; i < o->threads; i++)
-        job->ranges[i][0] = INFINITY, job->ranges[i][1] = -INFINITY;
-    job->tiling = tiling_of(0, 0, o->width, o->height);
-    thread_share(job->tiling.n, o->threads, find_range_of_tile, job);
-    job->range[0] = INFINITY;
-    job->range[1] = -INFINITY;
+        r->ranges[i][0] = INFINITY, r->ranges[i][1] = -INFINITY;
+    r->tiling = tiling_of(0, 0, o->width, o->height);
+    thread_share(r->tiling.n, o->threads, find_range_of_tile, r);
+    r->range[0] = INFINITY;
+    r->range[1] = -INFINITY;
     for (unsigned i = 0; i < o->threads; i++) {
-        job->range[0] = fmin(job->range[0], job->ranges[i][0]);
-        job->range[1] = fmax(job->range[1], job->ranges[i][1]);
+        r->range[0] = fmin(r->range[0], r->ranges[i][0]);
+        r->range[1] = fmax(r->range[1], r->ranges[i][1]);
     }
-    free(job->ranges);
+    free(r->ranges);
 }
 
 static struct lens lens_for(const struct camera *c, const struct render_options *o)
@@ -166,30 +175,56 @@ enum picture_encoding render_encoding(const struct scene *scene, enum render_sho
     return scene->linear ? ENCODING_LINEAR : ENCODING_SRGB;
 }
 
+struct rendering *rendering_begin(const struct scene *scene, const struct render_options *options,
+                                  struct picture *out)
+{
+    struct rendering *r = mem_zalloc(1, sizeof *r);
+    double started = thread_seconds();
+    tracer_init(&r->tracer, scene, options);
+    r->stats.build_s = thread_seconds() - started;
+    r->out = out;
+    r->workers = mem_alloc(options->threads, sizeof *r->workers);
+    for (unsigned i = 0; i < options->threads; i++)
+        r->workers[i] = camera_worker(&r->tracer);
+    if (options->show == SHOW_DEPTH && out->bytes)
+        find_range(r);
+    for (unsigned i = 0; i < options->threads; i++)
+        r->workers[i]->stats = (struct render_stats){0};
+    r->tiling = tiling_of(options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
+    if (options->adaptive > 0)
+        r->frame = adaptive_new(&r->tracer, r->workers, out);
+    return r;
+}
+
+void rendering_tiles(struct rendering *r, const size_t *tiles, size_t n)
+{
+    double started = thread_seconds();
+    r->wanted = tiles;
+    if (r->frame)
+        adaptive_tiles(r->frame, tiles, n);
+    else
+        thread_share(tiles ? n : r->tiling.n, r->tracer.options->threads, render_tile, r);
+    r->stats.render_s += thread_seconds() - started;
+}
+
+void rendering_end(struct rendering *r, struct render_stats *stats)
+{
+    *stats = r->stats;
+    if (r->frame)
+        stats->adaptive = adaptive_end(r->frame);
+    for (unsigned i = 0; i < r->tracer.options->threads; i++) {
+        add_stats(stats, &r->workers[i]->stats);
+        worker_free(r->workers[i]);
+    }
+    free(r->workers);
+    tracer_free(&r->tracer);
+    free(r);
+}
+
 void render_scene(const struct scene *scene, const struct render_options *options,
                   struct picture *out, struct render_stats *stats)
 {
-    struct tracer tracer;
-    double started = thread_seconds();
-    tracer_init(&tracer, scene, options);
-    double built = thread_seconds();
-    struct job job = {.tracer = &tracer, .out = out};
-    job.workers = mem_alloc(options->threads, sizeof *job.workers);
-    for (unsigned i = 0; i < options->threads; i++)
-        job.workers[i] = camera_worker(&tracer);
-    if (options->show == SHOW_DEPTH && out->bytes)
-        find_range(&job);
-    *stats = (struct render_stats){.build_s = built - started};
-    job.tiling = tiling_of(options->crop.x0, options->crop.y0, options->crop.x1, options->crop.y1);
-    if (options->adaptive > 0)
-        stats->adaptive = render_adaptive(&tracer, job.workers, out);
-    else
-        thread_share(job.tiling.n, options->threads, render_tile, &job);
-    stats->render_s = thread_seconds() - built;
-    for (unsigned i = 0; i < options->threads; i++) {
-        add_stats(stats, &job.workers[i]->stats);
-        worker_free(job.workers[i]);
-    }
-    free(job.workers);
-    tracer_free(&tracer);
+    struct rendering *r = rendering_begin(scene, options, out);
+    rendering_tiles(r, NULL, 0);
+    rendering_end(r, stats);
 }

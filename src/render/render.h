@@ -6,6 +6,7 @@
 #include "image/picture.h"
 #include "scene/scene.h"
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -15,6 +16,15 @@ enum render_show { SHOW_PICTURE, SHOW_NORMALS, SHOW_DEPTH, SHOW_IDS, SHOW_SAMPLE
 struct render_progress {
     void (*report)(void *context, double done);
     void *context;
+};
+
+/* Who hears of tiles and may end the work; each pointer may be NULL. */
+struct render_watch {
+    /* The tile's pixels are in the picture: called from any thread, once for each. */
+    void (*finished)(void *context, size_t tile);
+    void *context;
+    const volatile sig_atomic_t *stop; /* once it is not 0, only tiles under way are ended */
+    size_t tiles;                      /* that will be asked for in all; 0: the whole crop's */
 };
 
 struct render_options {
@@ -35,6 +45,7 @@ struct render_options {
     bool no_skip;     /* every optimisation that can be left out is off: same bytes */
     enum isa isa;     /* an available one: same bytes */
     struct render_progress progress; /* report may be NULL */
+    struct render_watch watch;
 };
 
 /* Why a shadow ray is not traced: nothing can be in its way; one surface hides all of the light
@@ -66,5 +77,25 @@ enum picture_encoding render_encoding(const struct scene *scene, enum render_sho
  * do not depend on threads, crop, brute_force or no_skip; with a deadline they do. */
 void render_scene(const struct scene *scene, const struct render_options *options,
                   struct picture *out, struct render_stats *stats);
+
+/* The same a part at a time.  Tiles are those of tiling_of() the crop; each may be asked for once,
+ * in any order.  With a deadline only all of them can be, which is what `tiles` NULL means. */
+struct rendering;
+struct rendering *rendering_begin(const struct scene *scene, const struct render_options *options,
+                                  struct picture *out);
+void rendering_tiles(struct rendering *r, const size_t *tiles, size_t n);
+/* Frees it. */
+void rendering_end(struct rendering *r, struct render_stats *stats);
+
+static inline bool render_stopped(const struct render_options *o)
+{
+    return o->watch.stop && *o->watch.stop;
+}
+
+static inline void render_tell_finished(const struct render_options *o, size_t tile)
+{
+    if (o->watch.finished)
+        o->watch.finished(o->watch.context, tile);
+}
 
 #endif

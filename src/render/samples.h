@@ -2,25 +2,10 @@
 #ifndef WRT_RENDER_SAMPLES_H
 #define WRT_RENDER_SAMPLES_H
 
+#include "render/tiling.h"
 #include "render/tracer.h"
 
-enum { TILE = 8 };
 _Static_assert(TILE *TILE == BATCH, "one sample a pixel of a tile makes a batch");
-
-/* A part of the picture: pixels, top left origin, x1 and y1 outside. */
-struct tile {
-    uint32_t x0, y0, x1, y1;
-};
-
-/* A part cut into tiles. */
-struct tiling {
-    struct tile whole;
-    uint32_t columns; /* tiles in a row */
-    size_t n;
-};
-
-struct tiling tiling_of(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1);
-struct tile tiling_at(const struct tiling *tiling, size_t number);
 
 /* Which of the samples of each pixel is traced, and where it is: the offset from the pixel's
  * lower left corner, in pixels. */
