@@ -83,6 +83,9 @@ awk -v order="$order" '
         if (code ~ call || code ~ stream || code ~ /std::c(out|err|log)/)
             offence("only src/cmd prints and exits")
     }
+    mine != "cmd" && mine != "base" && code_of($0) ~ /(^|[^a-zA-Z0-9_])(file_read|fopen|openat)[ \t]*[(]/ {
+        offence("only src/cmd reads without a fence: file_read_within()")
+    }
     END { exit bad > 0 }
 ' $sources
 status=$?

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 
+#include "base/fence.h"
 #include "base/mem.h"
 #include "base/str.h"
 
@@ -44,15 +45,31 @@ static const char *read_all(int fd, size_t expected, char **data, size_t *n)
     return NULL;
 }
 
+/* The one place where input files are opened. */
+static int open_input(const struct file_fence *fence, const char *path, const char **reason)
+{
+    if (fence)
+        return fence_open_file(fence, path, reason);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    *reason = fd < 0 ? strerror(errno) : NULL;
+    return fd;
+}
+
 const char *file_read(const char *path, char **data, size_t *n)
+{
+    return file_read_within(NULL, path, data, n);
+}
+
+const char *file_read_within(const struct file_fence *fence, const char *path, char **data,
+                             size_t *n)
 {
     if (strcmp(path, "-") == 0)
         return read_all(STDIN_FILENO, 0, data, n);
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    const char *reason;
+    int fd = open_input(fence, path, &reason);
     if (fd < 0)
-        return strerror(errno);
+        return reason;
     struct stat st;
-    const char *reason = NULL;
     if (fstat(fd, &st) != 0)
         reason = strerror(errno);
     else if (S_ISDIR(st.st_mode))
@@ -65,9 +82,15 @@ const char *file_read(const char *path, char **data, size_t *n)
     return reason;
 }
 
-bool file_readable(const char *path, const char **reason)
+bool file_readable(const struct file_fence *fence, const char *path, const char **reason)
 {
     struct stat st;
+    if (fence) {
+        int fd = fence_open_file(fence, path, reason);
+        if (fd >= 0)
+            close(fd);
+        return fd >= 0;
+    }
     *reason = NULL;
     if (stat(path, &st) != 0 || access(path, R_OK) != 0)
         *reason = strerror(errno);
@@ -99,9 +122,10 @@ char *file_other_case(const char *path)
     return found;
 }
 
-char *file_meant(const char *path, size_t from)
+char *file_meant(const struct file_fence *fence, const char *path, size_t from)
 {
     size_t n = strlen(path);
+    const char *reason;
     char *meant = join(path, n, "");
     for (size_t i = from; i < n; i++)
         if (meant[i] == '\\')
@@ -122,7 +146,7 @@ char *file_meant(const char *path, size_t from)
         }
         meant[i] = end;
     }
-    if (strcmp(meant, path) == 0) {
+    if (strcmp(meant, path) == 0 || (fence && !file_readable(fence, meant, &reason))) {
         free(meant);
         return NULL;
     }

@@ -6,25 +6,33 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct file_fence;
+
 /* Files larger than this are refused: offsets within all texts of a run are 32-bit. */
 #define FILE_SIZE_LIMIT ((size_t)2000 * 1000 * 1000)
 
 /* Reads a file, or standard input for "-".  On success *data (caller frees) holds *n bytes and
  * room for two more.  On failure returns a reason such as "No such file or directory": a string
- * that needs no freeing. */
+ * that needs no freeing.  For files that the user names. */
 const char *file_read(const char *path, char **data, size_t *n);
 
-/* True when path names a regular file that can be read; *reason says why not. */
-bool file_readable(const char *path, const char **reason);
+/* The same for a file that may lie inside of the fence only; NULL: anywhere.  For whatever a scene
+ * names, and scenes. */
+const char *file_read_within(const struct file_fence *fence, const char *path, char **data,
+                             size_t *n);
+
+/* True when path names a file inside of the fence (NULL: anywhere) that can be read; *reason says
+ * why not. */
+bool file_readable(const struct file_fence *fence, const char *path, const char **reason);
 
 /* The name of another file in the folder of `path` that differs from it only in the case of
  * letters, with the folder as spelt in `path`; NULL when there is none.  Caller frees. */
 char *file_other_case(const char *path);
 
 /* The path of an existing file that differs from `path`, behind its first `from` bytes, only in the
- * case of letters and in `\\` for `/`; NULL when there is none.  As long as `path`; caller frees.
- */
-char *file_meant(const char *path, size_t from);
+ * case of letters and in `\\` for `/`, and lies inside of the fence; NULL when there is none.  As
+ * long as `path`; caller frees. */
+char *file_meant(const struct file_fence *fence, const char *path, size_t from);
 
 /* Writes n bytes so that path holds either its old content or all of the new: a temporary file
  * beside it is renamed.  A path that exists and is no regular file (a device, a pipe), and "-" for

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 void mem_exhausted(size_t wanted)
 {
@@ -70,4 +71,19 @@ void *mem_alloc_aligned(size_t n, size_t size)
     if (!p)
         mem_exhausted(bytes);
     return p;
+}
+
+bool mem_limit(uint64_t bytes)
+{
+#ifdef __linux__
+    const int what = RLIMIT_DATA; /* since 4.7 of all private memory */
+#else
+    const int what = RLIMIT_AS;
+#endif
+    struct rlimit limit;
+    if (getrlimit(what, &limit) != 0)
+        return false;
+    if (bytes < limit.rlim_cur) /* RLIM_INFINITY is the greatest */
+        limit.rlim_cur = (rlim_t)bytes;
+    return setrlimit(what, &limit) == 0;
 }

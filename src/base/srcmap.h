@@ -40,6 +40,8 @@ struct source {
 
 struct srcmap {
     VEC(struct source *) sources; /* by rising base */
+    /* Around the files of the run; borrowed.  NULL: they may lie anywhere. */
+    const struct file_fence *fence;
 };
 
 struct location {

@@ -83,10 +83,10 @@ static int diff_scenes(struct diff_input inputs[2], const struct options *o)
 
 /* ---- what there is to compare ---- */
 
-static struct diff_input read_input(const char *path)
+static struct diff_input read_input(const char *path, const struct options *o)
 {
     struct diff_input in = {.path = path, .name = strcmp(path, "-") == 0 ? "<stdin>" : path};
-    in.problem = file_read(path, &in.bytes, &in.n);
+    in.problem = file_read_within(o->fence, path, &in.bytes, &in.n);
     in.picture = !in.problem && picture_recognised(in.bytes, in.n);
     return in;
 }
@@ -127,7 +127,7 @@ int command_diff(const struct options *o)
                            o->scenes.n == 1 ? "is" : "are");
     if (strcmp(o->scenes.at[0], "-") == 0 && strcmp(o->scenes.at[1], "-") == 0)
         return usage_error("diff: only one of the two can be standard input");
-    struct diff_input inputs[2] = {read_input(o->scenes.at[0]), read_input(o->scenes.at[1])};
+    struct diff_input inputs[2] = {read_input(o->scenes.at[0], o), read_input(o->scenes.at[1], o)};
     int status = diff_inputs(inputs, o);
     free(inputs[0].bytes);
     free(inputs[1].bytes);

@@ -19,6 +19,7 @@ int command_lsp(const struct options *o)
         .folders = o->folders.at,
         .folder_count = o->folders.n,
         .max_objects = o->max_objects,
+        .fence = o->fence,
     };
     signal(SIGPIPE, SIG_IGN); /* writing says so as well */
     int status = lsp_serve(STDIN_FILENO, STDOUT_FILENO, &options, &problem);

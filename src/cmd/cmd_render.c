@@ -183,6 +183,24 @@ static double deadline(const struct run *r)
     return r->started + r->options->time - write_s[r->format] * pixels;
 }
 
+/* What a service may not want to spend on a scene; what the user asks for is known beforehand. */
+static bool check_limits(struct run *r)
+{
+    const struct options *o = r->options;
+    const struct scene *s = &r->lowered.scene;
+    const struct desc *d = &r->frontend.desc;
+    uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
+    const struct desc_value *depth = d->settings ? desc_get(d->settings, PROP_DEPTH) : NULL;
+    if (!o->width && pixels > o->max_pixels)
+        diag_report(&r->frontend.diag, DIAG_SCENE_TOO_LARGE,
+                    desc_get(d->camera, PROP_RESOLUTION)->span,
+                    "the picture has more pixels than --max-pixels allows (%u)", o->max_pixels);
+    if (o->depth == DEPTH_OF_SCENE && s->depth > o->max_depth)
+        diag_report(&r->frontend.diag, DIAG_OUT_OF_RANGE, depth ? depth->span : (struct span){0},
+                    "rays are followed deeper than --max-depth allows (%u)", o->max_depth);
+    return r->frontend.diag.errors == 0;
+}
+
 static int load(struct run *r)
 {
     const struct options *o = r->options;
@@ -193,6 +211,7 @@ static int load(struct run *r)
         right =
             lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
+    right = right && check_limits(r);
     int status = frontend_report(&r->frontend, o, o->verbose ? DIAG_NOTE : DIAG_WARNING);
     if (right && o->verbose)
         describe_meshes(r);

@@ -25,13 +25,14 @@ void frontend_init(struct frontend *f, const struct options *o)
     *f = (struct frontend){0};
     diag_init(&f->diag, &f->sources);
     f->diag.policy = &o->policy;
+    f->sources.fence = o->fence;
 }
 
 const struct source *frontend_read(struct frontend *f, const char *path)
 {
     char *text;
     size_t n;
-    const char *reason = file_read(path, &text, &n);
+    const char *reason = file_read_within(f->sources.fence, path, &text, &n);
     const struct source *s = reason ? NULL : srcmap_add(&f->sources, display_name(path), text, n);
     if (!s)
         diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",

@@ -12,6 +12,7 @@
 #include "cmd/commands.h"
 #include "cmd/options.h"
 
+#include "base/mem.h"
 #include "base/str.h"
 
 #include <errno.h>
@@ -71,6 +72,14 @@ static int print_help(const struct command *c)
     return 0;
 }
 
+/* Runs a command within the memory it may have. */
+static int run_limited(int (*run)(const struct options *o), const struct options *o)
+{
+    if (o->max_memory && !mem_limit(o->max_memory))
+        return usage_error("--max-memory: could not set the limit: %s", strerror(errno));
+    return run(o);
+}
+
 static int run_command(const struct command *c, int argc, char **argv)
 {
     struct options o;
@@ -80,7 +89,7 @@ static int run_command(const struct command *c, int argc, char **argv)
     int status = result == OPTIONS_HELP      ? print_help(c)
                  : result == OPTIONS_VERSION ? print_version()
                  : result == OPTIONS_WRONG   ? EXIT_USAGE
-                                             : c->run(&o);
+                                             : run_limited(c->run, &o);
     options_free(&o);
     return status;
 }
@@ -129,7 +138,7 @@ static int run_without_command(int argc, char **argv)
                  : result == OPTIONS_VERSION                    ? print_version()
                  : first && looks_like_command(first, operands) ? unknown_command(first)
                  : result == OPTIONS_WRONG                      ? EXIT_USAGE
-                 : operands                                     ? command_render(&o)
+                 : operands                                     ? run_limited(command_render, &o)
                             : usage_error("no scene given; 'wrt --help' says more");
     options_free(&o);
     return status;

@@ -138,6 +138,35 @@ static bool take_max_objects(const struct opt_row *row, const char *text, struct
     return right;
 }
 
+/* A number of bytes, with K, M or G for powers of 1024. */
+static bool take_max_memory(const struct opt_row *row, const char *text, struct options *out)
+{
+    static const char units[] = "KMG";
+    enum { MOST_DIGITS = 20 };
+    char digits[MOST_DIGITS + 1] = "";
+    size_t n = strspn(text, "0123456789");
+    const char *unit = text[n] ? strchr(units, text[n]) : NULL;
+    unsigned shift = unit ? 10 * (unsigned)(unit - units + 1) : 0;
+    if (n <= MOST_DIGITS)
+        memcpy(digits, text, n);
+    if (!text[n + (unit != NULL)] && read_whole(digits, 1, UINT64_MAX >> shift, &out->max_memory)) {
+        out->max_memory <<= shift;
+        return true;
+    }
+    usage_error("--%s takes a number of bytes, as in 2000000 or 512M, not '%s'", row->name, text);
+    return false;
+}
+
+static bool take_restrict(const struct opt_row *row, const char *text, struct options *out)
+{
+    fence_close(&out->restricted);
+    const char *reason = fence_open(&out->restricted, text);
+    if (reason)
+        usage_error("--%s: could not open '%s': %s", row->name, text, reason);
+    out->fence = &out->restricted;
+    return !reason;
+}
+
 /* `n` whole numbers with a separator between them. */
 static bool read_list(const char *text, char separator, unsigned n, uint32_t *out)
 {
@@ -505,7 +534,10 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
     *out = (struct options){.depth = DEPTH_OF_SCENE,
                             .threads = thread_cores(),
                             .isa = isa_best(),
-                            .max_objects = 10 * 1000 * 1000};
+                            .max_objects = 10 * 1000 * 1000,
+                            .max_pixels = IMAGE_PIXEL_LIMIT,
+                            .max_depth = UINT32_MAX,
+                            .restricted = {.fd = -1}};
     for (int i = 0; i < MEASURES; i++)
         out->limits[i] = NAN;
     bool options_end = false;
@@ -534,6 +566,7 @@ void options_free(struct options *o)
     vec_free(&o->scenes);
     vec_free(&o->defines);
     vec_free(&o->folders);
+    fence_close(&o->restricted);
 }
 
 void options_help(unsigned command, FILE *out)

@@ -2,6 +2,7 @@
 #ifndef WRT_CMD_OPTIONS_H
 #define WRT_CMD_OPTIONS_H
 
+#include "base/fence.h"
 #include "base/vec.h"
 #include "diag/diag.h"
 #include "image/measures.h"
@@ -52,6 +53,10 @@ struct options {
     uint32_t threads;
     uint64_t seed;
     size_t max_objects;
+    uint64_t max_memory; /* bytes; 0: no limit */
+    uint32_t max_pixels, max_depth;
+    struct file_fence restricted;   /* of --restrict; closed when it is not given */
+    const struct file_fence *fence; /* that one, or NULL */
     enum render_show show;
     enum isa isa;
     enum stats_format stats;

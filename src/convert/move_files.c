@@ -70,7 +70,7 @@ static void move_include(struct mover *m, const struct ast_node *string)
 {
     const char *reason;
     char *path = file_resolve(m->t->ast->source->name, string->text.at, string->text.n);
-    if (begins_relative(string->text) && file_readable(path, &reason))
+    if (begins_relative(string->text) && file_readable(m->t->sources->fence, path, &reason))
         move_string(m, string);
     free(path);
 }

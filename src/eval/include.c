@@ -2,6 +2,7 @@
 #include "config.h"
 
 #include "base/buffer.h"
+#include "base/fence.h"
 #include "base/file.h"
 #include "eval/context.h"
 #include "syntax/syntax.h"
@@ -70,12 +71,12 @@ static struct module *find_module(const struct eval *e, const char *path)
 /* ---- which file ---- */
 
 /* A name that another machine would have found. */
-static void explain_missing(struct diag_entry *entry, const struct ast_node *string,
-                            const char *path)
+static void explain_missing(const struct eval *e, struct diag_entry *entry,
+                            const struct ast_node *string, const char *path)
 {
     size_t n = strlen(path), from = n - (string->text.n < n ? string->text.n : n);
     bool ends = string->text.n > 0 && str_is(string->text, path + from);
-    char *meant = ends ? file_meant(path, from) : NULL;
+    char *meant = ends ? file_meant(e->options->sources->fence, path, from) : NULL;
     if (!meant)
         return;
     diag_note(entry, "there is '%s'", meant);
@@ -89,16 +90,18 @@ static char *find_file(struct eval *e, const struct ast_node *string)
 {
     const char *beside = srcmap_source(e->diag->sources, string->span.begin)->name;
     struct str name = string->text;
-    const char *reason = "the name is empty", *other;
+    const struct file_fence *fence = e->options->sources->fence;
+    const char *refusal = name.n ? fence_refusal(fence, name) : "the name is empty", *other;
+    const char *reason = refusal;
     char *path = file_resolve(beside, name.at, name.n);
-    if (name.n && file_readable(path, &reason))
+    if (!refusal && file_readable(fence, path, &reason))
         return path;
-    for (size_t i = 0; name.n && i < e->options->folder_count; i++) {
+    for (size_t i = 0; !refusal && i < e->options->folder_count; i++) {
         struct buffer folder = {0};
         buffer_printf(&folder, "%s/%c", e->options->folders[i], 0);
         char *inside = file_resolve(folder.at, name.at, name.n);
         buffer_free(&folder);
-        if (file_readable(inside, &other)) {
+        if (file_readable(fence, inside, &other)) {
             free(path);
             return inside;
         }
@@ -108,7 +111,7 @@ static char *find_file(struct eval *e, const struct ast_node *string)
                                            "could not read '%s': %s", path, reason);
     if (e->options->folder_count)
         diag_note(entry, "nor is it in a folder of -I");
-    explain_missing(entry, string, path);
+    explain_missing(e, entry, string, path);
     e->out->incomplete = e->names_lost = true;
     free(path);
     return NULL;

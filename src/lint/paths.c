@@ -27,7 +27,7 @@ static const struct known *know(struct paths *p, const char *path)
     if (k)
         return k;
     k = arena_zalloc(&p->arena, 1, sizeof *k);
-    k->readable = file_readable(path, &reason);
+    k->readable = file_readable(p->l->sources->fence, path, &reason);
     char *twin = k->readable ? file_other_case(path) : NULL;
     k->twin = twin ? arena_copy(&p->arena, twin, strlen(twin)) : NULL;
     free(twin);

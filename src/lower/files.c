@@ -5,6 +5,7 @@
 
 #include "math/srgb.h"
 
+#include "base/fence.h"
 #include "base/file.h"
 
 #include <string.h>
@@ -39,7 +40,8 @@ static void explain_missing(struct lowering *l, struct diag_entry *e, const stru
 {
     bool backslash = memchr(file->string.at, '\\', file->string.n);
     size_t n = strlen(path), from = n - (file->string.n < n ? file->string.n : n);
-    char *meant = str_is(file->string, path + from) ? file_meant(path, from) : NULL;
+    char *meant =
+        str_is(file->string, path + from) ? file_meant(l->sources->fence, path, from) : NULL;
     if (backslash)
         diag_note(e, "'\\' is part of a name; '/' stands between folders");
     if (meant) {
@@ -55,10 +57,12 @@ static void explain_missing(struct lowering *l, struct diag_entry *e, const stru
 static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,
                       const char *what, char **data, size_t *n)
 {
-    const char *reason =
-        strlen(path) == file->string.n || !memchr(file->string.at, 0, file->string.n)
-            ? file_read(path, data, n)
-            : "the name holds a zero byte";
+    const struct file_fence *fence = l->sources->fence;
+    const char *reason = fence_refusal(fence, file->string);
+    if (strlen(path) != file->string.n && memchr(file->string.at, 0, file->string.n))
+        reason = "the name holds a zero byte";
+    else if (!reason)
+        reason = file_read_within(fence, path, data, n);
     if (reason)
         explain_missing(l,
                         diag_report(l->diag, DIAG_FILE_MISSING, file->span,

@@ -70,6 +70,7 @@ const struct analysis *analysis_of(struct document *doc, const struct lsp_option
     struct analysis *a = mem_zalloc(1, sizeof *a);
     diag_init(&a->diag, &a->sources);
     a->diag.policy = options->policy;
+    a->sources.fence = options->fence;
     a->source = add_source(a, doc);
     if (!a->source) {
         free(a);

@@ -10,6 +10,7 @@ struct lsp_options {
     const char *const *folders; /* of includes */
     size_t folder_count;
     size_t max_objects;
+    const struct file_fence *fence; /* around included files; NULL: they may lie anywhere */
 };
 
 /* Talks until the client ends it; returns the exit status of the program.  What the user should

@@ -29,7 +29,7 @@ const struct source *syntax_load(struct srcmap *sources, const char *path, enum 
 {
     char *text;
     size_t n;
-    const char *reason = file_read(path, &text, &n);
+    const char *reason = file_read_within(sources->fence, path, &text, &n);
     if (!reason)
         return syntax_take(sources, path, text, n, code, span, diag);
     diag_report(diag, code, span, "could not read '%s': %s",

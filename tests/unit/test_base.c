@@ -593,10 +593,10 @@ START_TEST(file_not_read)
     make_folder();
     ck_assert_ptr_nonnull(file_read("none", &data, &n));
     ck_assert_ptr_nonnull(file_read(".", &data, &n));
-    ck_assert(!file_readable("none", &reason) && reason);
-    ck_assert(!file_readable(".", &reason) && reason);
+    ck_assert(!file_readable(NULL, "none", &reason) && reason);
+    ck_assert(!file_readable(NULL, ".", &reason) && reason);
     ck_assert_ptr_null(file_write("a", "1", 1));
-    ck_assert(file_readable("a", &reason) && !reason);
+    ck_assert(file_readable(NULL, "a", &reason) && !reason);
     int fd = open("big", O_CREAT | O_WRONLY, 0666); /* one hole */
     ck_assert_int_ge(fd, 0);
     ck_assert_int_eq(ftruncate(fd, (off_t)FILE_SIZE_LIMIT + 1), 0);
