@@ -16,7 +16,9 @@
 #include "base/str.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -160,8 +162,15 @@ static int help_on(const char *word)
     return word && !c ? unknown_command(word) : print_help(c);
 }
 
+/* For jansson, which would go on without what it could not have. */
+static void *allocate(size_t n)
+{
+    return mem_alloc(n, 1);
+}
+
 int main(int argc, char **argv)
 {
+    json_set_alloc_funcs(allocate, free);
     int first = options_first_operand(argc, argv);
     const struct command *c = first < argc ? find_command(argv[first]) : NULL;
     if (first < argc && strcmp(argv[first], "help") == 0 && access("help", F_OK) != 0)

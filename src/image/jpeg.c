@@ -19,6 +19,8 @@ struct image *jpeg_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE
 
 #else
 
+#include "base/mem.h"
+
 #include <stdio.h>
 
 #include <jpeglib.h>
@@ -51,6 +53,8 @@ static _Noreturn void on_error(j_common_ptr jpeg)
 {
     struct decoder *d = jpeg->client_data;
     char message[JMSG_LENGTH_MAX];
+    if (d->errors.msg_code == JERR_OUT_OF_MEMORY)
+        mem_exhausted((size_t)3 * d->jpeg.image_width * d->jpeg.image_height);
     d->errors.format_message(jpeg, message);
     image_reason(d->reason, "the JPEG is damaged (libjpeg: %s)", message);
     give_up(jpeg);
@@ -80,6 +84,21 @@ static void on_progress(j_common_ptr jpeg)
     give_up(jpeg);
 }
 
+/* Huffman's codes have a bit at least, and every block of 64 samples has a code, so a header that
+ * claims more than the file can hold is found out before any memory is asked for. */
+static void check_blocks(struct decoder *d)
+{
+    struct jpeg_decompress_struct *jpeg = &d->jpeg;
+    uint64_t blocks = 0;
+    for (int i = 0; i < jpeg->num_components; i++)
+        blocks +=
+            (uint64_t)jpeg->comp_info[i].width_in_blocks * jpeg->comp_info[i].height_in_blocks;
+    if (jpeg->arith_code || blocks / 8 <= d->n)
+        return;
+    image_reason(d->reason, "the picture ends early");
+    give_up((j_common_ptr)jpeg);
+}
+
 static void check_header(struct decoder *d)
 {
     struct jpeg_decompress_struct *jpeg = &d->jpeg;
@@ -89,6 +108,7 @@ static void check_header(struct decoder *d)
         image_reason(d->reason, "CMYK pictures are not read; RGB and grey ones are");
         give_up((j_common_ptr)jpeg);
     }
+    check_blocks(d);
 }
 
 static void decode(struct decoder *d)

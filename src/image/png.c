@@ -30,6 +30,19 @@ static void on_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
+/* Running out of memory ends the program, as it does elsewhere. */
+static png_voidp allocate(png_structp png, png_alloc_size_t n)
+{
+    (void)png;
+    return mem_alloc(n, 1);
+}
+
+static void release(png_structp png, png_voidp p)
+{
+    (void)png;
+    free(p);
+}
+
 /* ---- reading --------------------------------------------------------------------------------- */
 
 struct decoder {
@@ -134,7 +147,8 @@ struct image *png_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_
 {
     struct decoder d = {.at = bytes, .end = bytes + n, .reason = reason};
     reason[0] = 0;
-    d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
+    d.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning, NULL,
+                                     allocate, release);
     if (d.png)
         d.info = png_create_info_struct(d.png);
     bool ok = d.info && decode_guarded(&d);
@@ -235,7 +249,8 @@ void *png_file_encode(const struct picture *p, size_t *n, char reason[IMAGE_REAS
     struct encoder e = {.picture = p};
     e.data = compress(p, &e.data_bytes);
     reason[0] = 0;
-    e.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning);
+    e.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, on_error, on_warning, NULL,
+                                      allocate, release);
     if (e.png)
         e.info = png_create_info_struct(e.png);
     bool ok = e.info && encode_guarded(&e);
