@@ -224,7 +224,7 @@ static void render(struct run *r)
     uint32_t width = to->crop.x1 - to->crop.x0, height = to->crop.y1 - to->crop.y0;
     choose_sampling(r);
     r->picture = picture_new(width, height, r->format == PICTURE_PFM);
-    r->picture->encoding = render_encoding(&r->lowered.scene, to->show);
+    picture_encode_as(r->picture, render_encoding(&r->lowered.scene, to->show));
     to->deadline = r->options->time > 0 ? deadline(r) : 0;
     progress_begin(&r->progress, r->options->quiet, (unsigned long)width * height);
     to->progress.report = progress_report;

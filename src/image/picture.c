@@ -6,6 +6,7 @@
 #include "base/str.h"
 #include "image/codec.h"
 #include "math/srgb.h"
+#include "math/srgb_bytes.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -116,6 +117,7 @@ void picture_free(struct picture *p)
         return;
     free(p->bytes);
     free(p->floats);
+    free(p->srgb);
     free(p);
 }
 
@@ -151,6 +153,20 @@ bool image_equal(const struct image *a, const struct image *b)
                     : memcmp(a->data16, b->data16, channels * sizeof *a->data16) == 0;
 }
 
+void picture_encode_as(struct picture *p, enum picture_encoding encoding)
+{
+    p->encoding = encoding;
+    if (encoding != ENCODING_SRGB || p->srgb || p->floats)
+        return;
+    p->srgb = mem_alloc(1, sizeof *p->srgb);
+    srgb_bytes_init(p->srgb);
+}
+
+double picture_rounding(const struct picture *p)
+{
+    return p->encoding == ENCODING_PLAIN ? 0.1 : 0.5;
+}
+
 /* The comparisons are false for NaN. */
 static uint8_t channel_byte(double c, double rounding)
 {
@@ -171,14 +187,26 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
         p->floats[at] = (float)colour.x;
         p->floats[at + 1] = (float)colour.y;
         p->floats[at + 2] = (float)colour.z;
-        return;
+    } else if (p->srgb) {
+        p->bytes[at] = srgb_byte(p->srgb, colour.x);
+        p->bytes[at + 1] = srgb_byte(p->srgb, colour.y);
+        p->bytes[at + 2] = srgb_byte(p->srgb, colour.z);
+    } else {
+        double rounding = picture_rounding(p);
+        p->bytes[at] = channel_byte(colour.x, rounding);
+        p->bytes[at + 1] = channel_byte(colour.y, rounding);
+        p->bytes[at + 2] = channel_byte(colour.z, rounding);
     }
-    if (p->encoding == ENCODING_SRGB)
-        colour = vec3(srgb_encode(colour.x), srgb_encode(colour.y), srgb_encode(colour.z));
-    double rounding = p->encoding == ENCODING_PLAIN ? 0.1 : 0.5;
-    p->bytes[at] = channel_byte(colour.x, rounding);
-    p->bytes[at + 1] = channel_byte(colour.y, rounding);
-    p->bytes[at + 2] = channel_byte(colour.z, rounding);
+}
+
+void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n)
+{
+    uint8_t *to = p->bytes + ((size_t)y * p->width + x) * 3;
+    for (uint32_t i = 0; i < n; i++, to += 3) {
+        to[0] = (uint8_t)pixels[i];
+        to[1] = (uint8_t)(pixels[i] >> 8);
+        to[2] = (uint8_t)(pixels[i] >> 16);
+    }
 }
 
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

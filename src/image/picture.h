@@ -19,7 +19,8 @@ enum picture_encoding {
 /* A picture to write: RGB, 8 bits a channel, or 32-bit floats as they came from the renderer. */
 struct picture {
     uint32_t width, height;
-    enum picture_encoding encoding; /* picture_new makes it plain */
+    enum picture_encoding encoding; /* plain, unless picture_encode_as says otherwise */
+    struct srgb_bytes *srgb;        /* with ENCODING_SRGB */
     uint8_t *bytes;                 /* 3 width height, or NULL */
     float *floats;                  /* 3 width height, or NULL */
 };
@@ -32,12 +33,20 @@ bool image_size_allowed(uint64_t width, uint64_t height);
 struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
 void picture_free(struct picture *p);
 
+/* What its bytes hold from now on. */
+void picture_encode_as(struct picture *p, enum picture_encoding encoding);
+/* What is added to 255 times a channel before the fraction is cut off; not for sRGB. */
+double picture_rounding(const struct picture *p);
+
 /* What bytes hold of a channel, before they are rounded: from 0 to 1. */
 double picture_channel(enum picture_encoding encoding, double c);
 
 /* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels
  * at once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
+
+/* Stores n pixels in a row, from (x, y) on: red in the low byte, then green and blue. */
+void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n);
 
 /* A decoded texture: RGB, 8 or 16 bits a channel (native byte order), grey spread to three
  * channels, palettes looked up, alpha dropped, gamma and profiles ignored. */

@@ -22,9 +22,7 @@ static bool is_black(const struct lint *l, uint32_t grid)
                                .threads = 1,
                                .isa = isa_best()};
     bool black = true;
-    p->encoding = s->model == SCENE_CLASSIC ? ENCODING_PLAIN
-                  : s->linear               ? ENCODING_LINEAR
-                                            : ENCODING_SRGB;
+    picture_encode_as(p, render_encoding(s, SHOW_PICTURE));
     render_scene(s, &o, p, &stats);
     for (int i = 0; i < 3 * PROBE * PROBE; i++)
         black &= p->bytes[i] == 0;

@@ -48,9 +48,14 @@ static inline vint32 v_load_int32(const int32_t *p)
 }
 
 /* Numbers below 2^31, their fractions cut off. */
-static inline void v_store_int32(int32_t *p, vreal a)
+static inline vint32 v_int32(vreal a)
 {
-    *(vint32_in_memory *)p = __builtin_convertvector(a, vint32);
+    return __builtin_convertvector(a, vint32);
+}
+
+static inline void v_store_int32(int32_t *p, vint32 a)
+{
+    *(vint32_in_memory *)p = a;
 }
 
 static inline vreal v_real(vint32 a)

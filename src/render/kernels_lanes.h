@@ -213,10 +213,10 @@ static uint64_t place_corners(const struct image *image, const double *u, const 
         vreal right = v_select(v_less(x.at + 1, v_all(width)), x.at + 1, zero);
         vreal above = v_select(v_less(y.at + 1, v_all(height)), y.at + 1, zero);
         vreal low = (height - 1 - y.at) * width, high = (height - 1 - above) * width;
-        v_store_int32(c->at[0] + i, low + x.at);
-        v_store_int32(c->at[1] + i, low + right);
-        v_store_int32(c->at[2] + i, high + x.at);
-        v_store_int32(c->at[3] + i, high + right);
+        v_store_int32(c->at[0] + i, v_int32(low + x.at));
+        v_store_int32(c->at[1] + i, v_int32(low + right));
+        v_store_int32(c->at[2] + i, v_int32(high + x.at));
+        v_store_int32(c->at[3] + i, v_int32(high + right));
         v_store(c->across + i, x.rest);
         v_store(c->upwards + i, y.rest);
     }
@@ -382,5 +382,21 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
+static inline vint32 bytes_of(vreal c, double rounding)
+{
+    vreal zero = v_all(0), byte = c * 255 + rounding;
+    byte = v_select(v_less(c, v_all(1)), byte, v_all(255));
+    return v_int32(v_select(v_less(zero, c), byte, zero));
+}
+
+static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels)
+{
+    for (uint32_t i = 0; i < n; i += LANES) {
+        struct vvec3 c = v3_load(colours, i);
+        vint32 red = bytes_of(c.x, rounding), green = bytes_of(c.y, rounding);
+        v_store_int32((int32_t *)pixels + i, red | green << 8 | bytes_of(c.z, rounding) << 16);
+    }
+}
+
 const struct render_kernels RENDER_KERNELS = {aim,       hit_points, weights, texels, bend,
-                                              add_light, reflect,    bounds,  see};
+                                              add_light, reflect,    bounds,  pack,   see};

@@ -117,6 +117,21 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
+/* The comparisons are false for NaN. */
+static uint32_t byte_of(double c, double rounding)
+{
+    double byte = c < 1 ? c * 255 + rounding : 255;
+    return (uint32_t)(c > 0 ? byte : 0);
+}
+
+static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t green = byte_of(colours->y[i], rounding), blue = byte_of(colours->z[i], rounding);
+        pixels[i] = byte_of(colours->x[i], rounding) | green << 8 | blue << 16;
+    }
+}
+
 /* Everything on the list may be in everyone's way. */
 static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
                 const struct vec3_batch *from, const uint32_t *prims, uint32_t first, uint32_t end,
@@ -128,4 +143,4 @@ static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaq
 }
 
 const struct render_kernels render_plain = {aim,       hit_points, weights, texels, bend,
-                                            add_light, reflect,    bounds,  see};
+                                            add_light, reflect,    bounds,  pack,   see};

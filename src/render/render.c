@@ -31,31 +31,63 @@ static void report_progress(struct rendering *r, unsigned worker)
         p->report(p->context, (double)done / (double)all);
 }
 
-/* Adds this sample of all the tile's pixels to their sums. */
-static void add_samples(struct worker *w, const struct tile *tile, const struct sample *sample,
-                        struct vec3_batch *sums)
+/* Traces this sample of all the tile's pixels. */
+static void trace_sample(struct worker *w, const struct tile *tile, struct sample sample,
+                         struct vec3_batch *colours)
 {
-    const struct ray_batch *rays = camera_rays(w, tile, sample);
+    const struct ray_batch *rays = camera_rays(w, tile, &sample);
     w->stats.primary += rays->n;
-    trace_batch(w, 0, rays, NULL, &w->colours);
-    for (uint32_t i = 0; i < rays->n; i++)
-        vec3_put(sums, i, vec3_add(vec3_get(sums, i), vec3_get(&w->colours, i)));
+    trace_batch(w, 0, rays, NULL, colours);
 }
 
-static void sample_tile(struct worker *w, const struct tile *tile, struct vec3_batch *colours)
+static void add_all(double *sums, const double *x)
+{
+    for (uint32_t i = 0; i < BATCH; i++)
+        sums[i] += x[i];
+}
+
+static void divide_all(double *sums, double by)
+{
+    for (uint32_t i = 0; i < BATCH; i++)
+        sums[i] /= by;
+}
+
+static void sample_tile(struct worker *w, const struct tile *tile)
 {
     uint32_t n = w->tracer->options->grid;
-    vec3_fill(colours, 0, BATCH, vec3_all(0));
-    for (uint32_t k = 0; k < n; k++) {
-        for (uint32_t l = 0; l < n; l++) {
-            struct sample sample = sample_at(w->tracer, k, l, n);
-            add_samples(w, tile, &sample, colours);
-        }
+    struct vec3_batch *sums = &w->sums;
+    trace_sample(w, tile, sample_at(w->tracer, 0, 0, n), sums);
+    for (uint32_t i = 1; i < n * n; i++) {
+        trace_sample(w, tile, sample_at(w->tracer, i / n, i % n, n), &w->colours);
+        add_all(sums->x, w->colours.x);
+        add_all(sums->y, w->colours.y);
+        add_all(sums->z, w->colours.z);
     }
+    if (n == 1)
+        return;
     double samples = (double)n * n;
-    for (uint32_t i = 0; i < BATCH && n > 1; i++)
-        vec3_put(colours, i,
-                 vec3(colours->x[i] / samples, colours->y[i] / samples, colours->z[i] / samples));
+    divide_all(sums->x, samples);
+    divide_all(sums->y, samples);
+    divide_all(sums->z, samples);
+}
+
+static void store_tile(struct rendering *r, const struct tile *tile,
+                       const struct vec3_batch *colours)
+{
+    struct picture *out = r->out;
+    uint32_t width = tile->x1 - tile->x0, x = tile->x0 - r->tiling.whole.x0, n = 0;
+    uint32_t pixels[BATCH_ROOM];
+    bool packed = out->bytes && !out->srgb;
+    if (packed)
+        r->tracer.kernels->pack(colours, width * (tile->y1 - tile->y0), picture_rounding(out),
+                                pixels);
+    for (uint32_t row = tile->y0; row < tile->y1; row++, n += width) {
+        uint32_t y = row - r->tiling.whole.y0;
+        if (packed)
+            picture_set_row(out, x, y, pixels + n, width);
+        for (uint32_t i = 0; i < width && !packed; i++)
+            picture_set(out, x + i, y, vec3_get(colours, n + i));
+    }
 }
 
 static void render_tile(void *context, size_t item, unsigned worker)
@@ -64,22 +96,17 @@ static void render_tile(void *context, size_t item, unsigned worker)
     struct worker *w = r->workers[worker];
     size_t number = r->wanted ? r->wanted[item] : item;
     struct tile tile = tiling_at(&r->tiling, number);
-    struct vec3_batch colours;
     if (render_stopped(r->tracer.options))
         return;
     if (r->tracer.options->show == SHOW_PICTURE) {
-        sample_tile(w, &tile, &colours);
+        sample_tile(w, &tile);
     } else {
         struct sample sample = sample_at(&r->tracer, 0, 0, 1);
         const struct ray_batch *rays = camera_rays(w, &tile, &sample);
         w->stats.primary += rays->n;
-        show_batch(w, rays, r->range, r->out->bytes != NULL, &colours);
+        show_batch(w, rays, r->range, r->out->bytes != NULL, &w->sums);
     }
-    uint32_t n = 0;
-    for (uint32_t y = tile.y0; y < tile.y1; y++)
-        for (uint32_t x = tile.x0; x < tile.x1; x++)
-            picture_set(r->out, x - r->tiling.whole.x0, y - r->tiling.whole.y0,
-                        vec3_get(&colours, n++));
+    store_tile(r, &tile, &w->sums);
     render_tell_finished(r->tracer.options, number);
     report_progress(r, worker);
 }

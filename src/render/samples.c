@@ -59,20 +59,15 @@ const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
     const struct tracer *t = w->tracer;
     const struct render_options *o = t->options;
     const struct camera *camera = &t->scene->camera;
-    double x[BATCH_ROOM], y[BATCH_ROOM], columns[TILE];
-    uint32_t n = 0;
-    for (uint32_t i = tile->x0; i < tile->x1; i++)
-        columns[i - tile->x0] = camera_place(camera, i + sample->x, o->width);
-    for (uint32_t row = tile->y0; row < tile->y1; row++) {
-        uint32_t j = o->height - 1 - row;
-        double up = camera_place(camera, j + sample->y, o->height);
-        for (uint32_t i = tile->x0; i < tile->x1; i++, n++) {
-            /* cppcheck-suppress uninitvar */
-            x[n] = columns[i - tile->x0];
-            y[n] = up;
-            if (o->jitter)
-                jitter(t, i, j, sample, &x[n], &y[n]);
-        }
+    double x[BATCH_ROOM], y[BATCH_ROOM], columns[TILE], rows[TILE];
+    uint32_t width = tile->x1 - tile->x0, height = tile->y1 - tile->y0, n = 0;
+    camera_places(camera, tile->x0, width, sample->x, o->width, columns);
+    camera_places(camera, o->height - tile->y1, height, sample->y, o->height, rows);
+    for (uint32_t j = height; j-- > 0; n += width) {
+        memcpy(x + n, columns, width * sizeof *columns);
+        fill(y, n, n + width, rows[j]);
+        for (uint32_t i = 0; i < width && o->jitter; i++)
+            jitter(t, tile->x0 + i, o->height - tile->y1 + j, sample, &x[n + i], &y[n + i]);
     }
     return rays_through(w, x, y, n);
 }

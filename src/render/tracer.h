@@ -206,6 +206,8 @@ struct render_kernels {
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
+    /* Colours as pixels of 8 bits a channel, see picture_set_row. */
+    void (*pack)(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels);
     /* Fills in what the points from `first` to `end`, which lie on `prims`, see of an area light,
      * behind the targets of sight->list.  Bit k of `opaque`: target k hides what is behind it. */
     void (*see)(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
@@ -233,6 +235,7 @@ struct worker {
     VEC(struct level *) levels; /* by depth, made when first needed */
     struct ray_batch camera_rays;
     struct vec3_batch colours;
+    struct vec3_batch sums; /* of all samples of a tile's pixels */
     /* Of the batch being shaded: */
     struct hit_batch hits;
     struct hit_shapes shapes;

@@ -41,6 +41,16 @@ double camera_place(const struct camera *c, double place, uint32_t pixels)
     return c->modern ? (2 * place - pixels) / pixels : 2 * (place / pixels) - 1;
 }
 
+void camera_places(const struct camera *c, uint32_t first, uint32_t n, double more, uint32_t pixels,
+                   double *places)
+{
+    double all = pixels;
+    for (uint32_t i = 0; i < n && c->modern; i++)
+        places[i] = (2 * ((int)(first + i) + more) - all) / all;
+    for (uint32_t i = 0; i < n && !c->modern; i++)
+        places[i] = 2 * (((int)(first + i) + more) / all) - 1;
+}
+
 double camera_sample(const struct camera *c)
 {
     return c->modern ? 0.5 : 0;

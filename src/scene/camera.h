@@ -20,6 +20,9 @@ struct lens lens_of(const struct camera *c, uint32_t width, uint32_t height);
 
 /* Where in the picture, from -1 to 1, a place along a row or column of so many pixels is. */
 double camera_place(const struct camera *c, double place, uint32_t pixels);
+/* The same of `more` in n pixels from `first` on. */
+void camera_places(const struct camera *c, uint32_t first, uint32_t n, double more, uint32_t pixels,
+                   double *places);
 
 /* Where in a pixel its only sample is, from 0 to 1: in classic at the lower left, in modern in the
  * middle. */

@@ -38,7 +38,7 @@ static struct picture *render_text(const char *text, bool floats, bool plain)
     o.crop.x1 = o.width;
     o.crop.y1 = o.height;
     struct picture *p = picture_new(o.width, o.height, floats);
-    p->encoding = s->linear ? ENCODING_LINEAR : ENCODING_SRGB;
+    picture_encode_as(p, s->linear ? ENCODING_LINEAR : ENCODING_SRGB);
     render_scene(s, &o, p, &stats);
     load_free(&l);
     return p;
