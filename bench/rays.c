@@ -265,15 +265,15 @@ static size_t trace_our_packets(const struct bench *bench, const struct beams *b
     struct target_list no_list = {.usable = false};
     size_t hits = 0;
     for (size_t i = 0; i < b->batches; i++) {
-        bool blocked[BATCH];
+        uint64_t blocked = 0;
         struct hit_batch found;
         const struct ray_batch *batch = &b->batch[i];
         if (b->any)
-            bundle_any(&bench->accel, bench->kernels, batch, &no_list, blocked);
+            blocked = bundle_any(&bench->accel, bench->kernels, batch, &no_list);
         else
             bundle_closest(&bench->accel, bench->kernels, batch, &no_list, &found);
         for (uint32_t k = 0; k < batch->n; k++)
-            hits += b->any ? blocked[k] : found.prim[k] != PRIM_NONE;
+            hits += b->any ? blocked >> k & 1 : found.prim[k] != PRIM_NONE;
     }
     return hits;
 }

@@ -51,22 +51,20 @@ void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
     }
 }
 
-void bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
-                const struct ray_batch *rays, const struct target_list *list, bool *blocked)
+uint64_t bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
+                    const struct ray_batch *rays, const struct target_list *list)
 {
     struct hit_batch hits;
-    bool found = list->usable;
-    if (found)
-        kernels->any(a->geometry, rays, list, &hits);
-    if (found || as_packet(a, rays, true, &hits)) {
-        for (uint32_t i = 0; i < rays->n; i++)
-            blocked[i] = hits.prim[i] != PRIM_NONE;
-        return;
-    }
+    uint64_t found = 0;
+    if (list->usable)
+        return list->n > 0 ? kernels->any(a->geometry, rays, list) : 0;
+    bool packet = as_packet(a, rays, true, &hits);
     for (uint32_t i = 0; i < rays->n; i++) {
         struct ray ray = ray_get(rays, i);
-        blocked[i] = accel_any(a, &ray);
+        bool hit = packet ? hits.prim[i] != PRIM_NONE : accel_any(a, &ray);
+        found |= (uint64_t)hit << i;
     }
+    return found;
 }
 
 /* ---- the reference: one ray after another ---------------------------------------------------- */
@@ -84,4 +82,15 @@ static void closest_one_by_one(const struct geometry *g, const struct ray_batch 
     }
 }
 
-const struct bundle_kernels bundle_plain = {closest_one_by_one, closest_one_by_one};
+static uint64_t any_one_by_one(const struct geometry *g, const struct ray_batch *rays,
+                               const struct target_list *list)
+{
+    struct hit_batch hits;
+    uint64_t found = 0;
+    closest_one_by_one(g, rays, list, &hits);
+    for (uint32_t i = 0; i < rays->n; i++)
+        found |= (uint64_t)(hits.prim[i] != PRIM_NONE) << i;
+    return found;
+}
+
+const struct bundle_kernels bundle_plain = {closest_one_by_one, any_one_by_one};

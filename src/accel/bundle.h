@@ -21,9 +21,9 @@ struct bundle_kernels {
     /* Nearest hits; a hit's prim is PRIM_NONE where there is none. */
     void (*closest)(const struct geometry *g, const struct ray_batch *rays,
                     const struct target_list *list, struct hit_batch *hits);
-    /* Any hits: prim is PRIM_NONE where there is none, the rest says nothing. */
-    void (*any)(const struct geometry *g, const struct ray_batch *rays,
-                const struct target_list *list, struct hit_batch *hits);
+    /* Bit i: ray i hits something. */
+    uint64_t (*any)(const struct geometry *g, const struct ray_batch *rays,
+                    const struct target_list *list);
 };
 
 extern const struct bundle_kernels bundle_plain, bundle_generic, bundle_avx2, bundle_avx512;
@@ -39,8 +39,8 @@ void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,
                     const struct ray_batch *rays, const struct target_list *list,
                     struct hit_batch *hits);
 
-/* accel_any for all of them. */
-void bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
-                const struct ray_batch *rays, const struct target_list *list, bool *blocked);
+/* accel_any for all of them; bit i: ray i hits something. */
+uint64_t bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
+                    const struct ray_batch *rays, const struct target_list *list);
 
 #endif

@@ -379,12 +379,13 @@ static void frames_for_list(struct frame_batch *f, const struct geometry *g,
     frames_init(f, g, rays, has[PRIM_SPHERE], has[PRIM_TRIANGLE], hits);
 }
 
+/* That of rays that are none may be larger. */
 static double farthest_hit(const struct frame_batch *f)
 {
-    double t = 0;
-    for (uint32_t i = 0; i < f->rays->n; i++)
-        t = f->hits->t[i] > t ? f->hits->t[i] : t;
-    return t;
+    vreal farthest = v_all(0);
+    for (uint32_t i = 0; i < f->n; i += LANES)
+        farthest = v_max(v_load(f->hits->t + i), farthest);
+    return v_most(farthest);
 }
 
 static void closest_in_list(const struct geometry *g, const struct ray_batch *rays,
@@ -399,21 +400,29 @@ static void closest_in_list(const struct geometry *g, const struct ray_batch *ra
     }
 }
 
-static bool all_hit(const struct frame_batch *f)
+/* Bit i: ray i has a hit. */
+static uint64_t rays_that_hit(const struct frame_batch *f)
 {
-    for (uint32_t i = 0; i < f->rays->n; i++)
-        if (f->hits->prim[i] == PRIM_NONE)
-            return false;
-    return true;
+    uint64_t none = 0;
+    for (uint32_t i = 0; i < f->n; i += LANES)
+        none |= (uint64_t)v_bits(v_equal(v_load(f->hits->prim + i), v_all(PRIM_NONE))) << i;
+    return ~none & UINT64_MAX >> (BATCH - f->rays->n);
 }
 
-static void any_in_list(const struct geometry *g, const struct ray_batch *rays,
-                        const struct target_list *list, struct hit_batch *hits)
+static uint64_t any_in_list(const struct geometry *g, const struct ray_batch *rays,
+                            const struct target_list *list)
 {
     struct frame_batch f;
-    frames_for_list(&f, g, rays, list, hits);
-    for (uint32_t k = 0; k < list->n && !all_hit(&f); k++)
+    struct hit_batch hits;
+    uint64_t all = UINT64_MAX >> (BATCH - rays->n), found = 0;
+    if (rays->n == 0)
+        return 0;
+    frames_for_list(&f, g, rays, list, &hits);
+    for (uint32_t k = 0; k < list->n && found != all; k++) {
         meet(&f, list->at[k]);
+        found = rays_that_hit(&f);
+    }
+    return found;
 }
 
 const struct bundle_kernels BUNDLE_KERNELS = {closest_in_list, any_in_list};

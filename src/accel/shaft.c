@@ -166,6 +166,19 @@ void shaft_list(const struct accel *a, const struct shaft *s, struct target_list
     list->usable = a->nodes ? add_tree(a, s, list) : add_run(a, s, 0, a->target_count, list);
 }
 
+void shaft_narrow(const struct accel *a, const struct shaft *s, const struct target_list *from,
+                  struct target_list *list)
+{
+    list->n = 0;
+    list->usable = from->usable;
+    for (uint32_t i = 0; i < from->n; i++) {
+        if (!shaft_touches(a, s, from->at[i]))
+            continue;
+        list->nearest[list->n] = from->nearest[i];
+        list->at[list->n++] = from->at[i];
+    }
+}
+
 /* Distance between two boxes. */
 static double gap(struct box a, struct box b)
 {

@@ -30,6 +30,10 @@ bool shaft_touches(const struct accel *a, const struct shaft *s, struct target t
 /* Fills in the list with what the shaft touches, the lower bounds left 0. */
 void shaft_list(const struct accel *a, const struct shaft *s, struct target_list *list);
 
+/* Those of `from` that the shaft touches, in their order. */
+void shaft_narrow(const struct accel *a, const struct shaft *s, const struct target_list *from,
+                  struct target_list *list);
+
 /* Works out the lower bounds and sorts by them. */
 void shaft_sort(const struct accel *a, const struct shaft *s, struct target_list *list);
 

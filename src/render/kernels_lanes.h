@@ -21,8 +21,8 @@ static void aim(const struct lens *lens, const double *x, const double *y, uint3
 
 static void sphere_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
 {
-    struct vvec3 center = v3_load(&h->at, i), f = v3_sub(v3_load(&h->origin, i), center);
-    struct vvec3 normal = v3_mad(f, v_load(h->t + i), v3_load(&points->incoming, i));
+    struct vvec3 center = v3_load(&h->at, i), f = v3_sub(v3_load(h->origin, i), center);
+    struct vvec3 normal = v3_mad(f, v_load(points->t + i), v3_load(&points->incoming, i));
     normal = v3_normalize(normal);
     v3_store(&points->normal, i, normal);
     v3_store(&points->p, i, v3_mad(center, v_load(h->radius + i), normal));
@@ -34,8 +34,8 @@ static void cylinder_points(const struct hit_shapes *h, uint32_t i, struct shade
     vreal zero = v_all(0), radius = v_load(h->radius + i), height = v_load(h->height + i);
     vreal part = v_load(h->part + i);
     vmask side = v_equal(part, v_all(CYLINDER_SIDE)), top = v_equal(part, v_all(CYLINDER_TOP));
-    struct vvec3 p = v3_sub(v3_load(&h->origin, i), base);
-    p = v3_mad(p, v_load(h->t + i), v3_load(&points->incoming, i));
+    struct vvec3 p = v3_sub(v3_load(h->origin, i), base);
+    p = v3_mad(p, v_load(points->t + i), v3_load(&points->incoming, i));
     vreal z = v3_dot(p, axis);
     struct vvec3 across = v3_mad(p, -z, axis);
     vreal length = v_sqrt(v3_dot(across, across));
@@ -51,8 +51,8 @@ static void cylinder_points(const struct hit_shapes *h, uint32_t i, struct shade
 static void triangle_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
 {
     struct vvec3 normal = v3_load(&h->along, i), corner = v3_load(&h->at, i);
-    struct vvec3 p = v3_load(&h->origin, i);
-    p = v3_mad(p, v_load(h->t + i), v3_load(&points->incoming, i));
+    struct vvec3 p = v3_load(h->origin, i);
+    p = v3_mad(p, v_load(points->t + i), v3_load(&points->incoming, i));
     v3_store(&points->normal, i, normal);
     v3_store(&points->p, i, v3_mad(p, v3_dot(normal, v3_sub(corner, p)), normal));
 }
@@ -78,7 +78,7 @@ static void weigh_exactly(const struct geometry *g, const struct hit_shapes *h, 
     for (; lanes; lanes &= lanes - 1) {
         uint32_t k = i + (uint32_t)__builtin_ctz(lanes);
         struct hit hit = {.prim = points->prim[k]};
-        struct ray ray = {.origin = vec3_get(&h->origin, k),
+        struct ray ray = {.origin = vec3_get(h->origin, k),
                           .direction = vec3_get(&points->incoming, k)};
         geometry_weights(g, &ray, &hit);
         points->b1[k] = hit.b1;
@@ -124,7 +124,7 @@ static void weights(const struct geometry *g, const struct hit_shapes *h,
 {
     uint32_t end = h->first[PRIM_TRIANGLE + 1];
     for (uint32_t i = h->first[PRIM_TRIANGLE]; i < end; i += LANES) {
-        struct vvec3 o = v3_load(&h->origin, i);
+        struct vvec3 o = v3_load(h->origin, i);
         struct shear shear = shear_of(v3_load(&points->incoming, i));
         struct vpoint2 a = sheared(v3_sub(v3_load(&h->at, i), o), &shear);
         struct vpoint2 b = sheared(v3_sub(v3_load(&h->second, i), o), &shear);
@@ -264,6 +264,44 @@ static void bend(const struct vec3_batch *texels, const double *bent, struct sha
     }
 }
 
+/* ---- between points and lights -----------------------------------------------------------------
+ */
+
+static void face(struct shade_batch *points)
+{
+    for (uint32_t i = 0; i < points->n; i += LANES)
+        v_store(points->facing + i,
+                v3_dot(v3_load(&points->normal, i), v3_load(&points->incoming, i)));
+}
+
+static uint64_t outside(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
+                        uint32_t end)
+{
+    uint64_t bits = 0;
+    for (uint32_t i = first; i < end; i += LANES) {
+        struct vvec3 at = v3_load(p, i);
+        vmask holds = v_equal(v_all(0), v_all(0));
+        for (int k = 0; k < 3; k++)
+            holds &= v_at_most(v_all(fence->least[k]), v3_dot(v3_all(fence->inwards[k]), at));
+        bits |= (uint64_t)v_bits(v_not(holds)) << i;
+    }
+    return end < BATCH ? bits & ((UINT64_C(1) << end) - 1) : bits;
+}
+
+static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
+                   double t_max, uint32_t n, struct ray_batch *rays)
+{
+    struct vvec3 position = v3_all(light->position);
+    bool sun = light->kind == LIGHT_SUN;
+    for (uint32_t i = 0; i < n; i += LANES) {
+        struct vvec3 p = v3_load(from, i);
+        v3_store(&rays->origin, i, p);
+        v3_store(&rays->direction, i, sun ? position : v3_sub(position, p));
+        v_store(rays->from + i, v_real(v_load_int32((const int32_t *)prims + i)));
+        v_store(rays->t_max + i, v_all(t_max));
+    }
+}
+
 /* ---- classic light --------------------------------------------------------------------------- */
 
 static vreal whole_powers(vreal x, vint n)
@@ -398,5 +436,18 @@ static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, 
     }
 }
 
-const struct render_kernels RENDER_KERNELS = {aim,       hit_points, weights, texels, bend,
-                                              add_light, reflect,    bounds,  pack,   see};
+const struct render_kernels RENDER_KERNELS = {
+    .aim = aim,
+    .hit_points = hit_points,
+    .weights = weights,
+    .texels = texels,
+    .bend = bend,
+    .face = face,
+    .outside = outside,
+    .aim_at = aim_at,
+    .add_light = add_light,
+    .reflect = reflect,
+    .bounds = bounds,
+    .pack = pack,
+    .see = see,
+};

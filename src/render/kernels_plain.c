@@ -13,7 +13,7 @@ static void aim(const struct lens *lens, const double *x, const double *y, uint3
 static struct ray ray_to(const struct hit_shapes *shapes, const struct shade_batch *points,
                          uint32_t i)
 {
-    return (struct ray){.origin = vec3_get(&shapes->origin, i),
+    return (struct ray){.origin = vec3_get(shapes->origin, i),
                         .direction = vec3_get(&points->incoming, i)};
 }
 
@@ -23,7 +23,7 @@ static void hit_points(const struct geometry *g, const struct hit_shapes *shapes
     for (uint32_t i = 0; i < points->n; i++) {
         struct ray ray = ray_to(shapes, points, i);
         struct hit hit = {
-            .t = shapes->t[i], .prim = points->prim[i], .part = (uint32_t)shapes->part[i]};
+            .t = points->t[i], .prim = points->prim[i], .part = (uint32_t)shapes->part[i]};
         struct vec3 normal;
         vec3_put(&points->p, i, geometry_hit_point(g, &ray, &hit, &normal));
         vec3_put(&points->normal, i, normal);
@@ -56,6 +56,33 @@ static void bend(const struct vec3_batch *texels, const double *bent, struct sha
         struct vec3 b = vec3_normalize(vec3(2 * (texel.x - 0.5), -2 * (texel.y - 0.5), 1));
         if (bent[i] != 0)
             vec3_put(&points->normal, i, vec3_normalize(vec3(n.x + b.x, n.y - b.y, n.z)));
+    }
+}
+
+static void face(struct shade_batch *points)
+{
+    for (uint32_t i = 0; i < points->n; i++)
+        points->facing[i] = vec3_dot(vec3_get(&points->normal, i), vec3_get(&points->incoming, i));
+}
+
+static uint64_t outside(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
+                        uint32_t end)
+{
+    uint64_t bits = 0;
+    for (uint32_t i = first; i < end; i++)
+        bits |= (uint64_t)!fence_holds(fence, vec3_get(p, i)) << i;
+    return bits;
+}
+
+static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
+                   double t_max, uint32_t n, struct ray_batch *rays)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        struct vec3 p = vec3_get(from, i), to = light->position;
+        vec3_put(&rays->origin, i, p);
+        vec3_put(&rays->direction, i, light->kind == LIGHT_SUN ? to : vec3_sub(to, p));
+        rays->from[i] = prims[i];
+        rays->t_max[i] = t_max;
     }
 }
 
@@ -142,5 +169,18 @@ static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaq
     sight->hidden = 0;
 }
 
-const struct render_kernels render_plain = {aim,       hit_points, weights, texels, bend,
-                                            add_light, reflect,    bounds,  pack,   see};
+const struct render_kernels render_plain = {
+    .aim = aim,
+    .hit_points = hit_points,
+    .weights = weights,
+    .texels = texels,
+    .bend = bend,
+    .face = face,
+    .outside = outside,
+    .aim_at = aim_at,
+    .add_light = add_light,
+    .reflect = reflect,
+    .bounds = bounds,
+    .pack = pack,
+    .see = see,
+};

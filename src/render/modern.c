@@ -140,14 +140,14 @@ static struct vec3 area_light(struct worker *w, const struct light *light,
 {
     struct vec3 gives[BATCH], sum = vec3_all(0);
     for (uint32_t number = 0; number < light->samples.n;) {
-        bool blocked[BATCH] = {false};
+        uint64_t blocked = 0;
         number = aim_at_samples(w, light, k, number, gives);
         if (open)
             w->stats.skipped[SKIP_OPEN] += w->shadow_rays.n;
         else
-            find_blocked(w, list, blocked);
+            blocked = find_blocked(w, list);
         for (uint32_t i = 0; i < w->shadow_rays.n; i++)
-            sum = blocked[i] ? sum : vec3_add(sum, gives[i]);
+            sum = blocked >> i & 1 ? sum : vec3_add(sum, gives[i]);
     }
     return sum;
 }

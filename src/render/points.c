@@ -20,33 +20,48 @@ static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_
     return accel_closest(&t->accel, &ray, hit);
 }
 
-/* What the rays can hit at all, nearest first. */
-static void find_targets(const struct tracer *t, const struct ray_batch *rays,
-                         struct target_list *list)
+/* So few targets are not worth finding out which of them the rays of a tile can hit. */
+enum { FEW_TARGETS = 4 };
+
+/* What the rays can hit at all, nearest first; found from what is known of camera rays, if
+ * anything, or put into `room`. */
+static const struct target_list *find_targets(const struct tracer *t, const struct ray_batch *rays,
+                                              const struct lookout *ahead, struct target_list *room)
 {
-    list->usable = false;
+    const struct target_list *known = ahead && ahead->known ? &ahead->list : NULL;
+    room->usable = false;
+    if (known && known->usable && known->n <= FEW_TARGETS)
+        return known;
     if (!t->skips || rays->n <= 1 || bundle_needs_no_lists(&t->accel))
-        return;
+        return room;
     struct box origins = t->kernels->bounds(&rays->origin, rays->common_origin ? 1 : rays->n);
     struct box directions = t->kernels->bounds(&rays->direction, rays->n);
     struct shaft shaft = shaft_of_rays(&t->accel, origins, directions);
-    shaft_list(&t->accel, &shaft, list);
-    if (list->usable)
-        shaft_sort(&t->accel, &shaft, list);
+    if (known && known->usable) {
+        shaft_narrow(&t->accel, &shaft, known, room);
+        return room;
+    }
+    shaft_list(&t->accel, &shaft, room);
+    if (room->usable)
+        shaft_sort(&t->accel, &shaft, room);
+    return room;
 }
 
-/* A refracted ray meets the far side of what it crossed before anything else. */
-static void meet_crossed_surfaces(struct worker *w, const struct ray_batch *rays,
-                                  const struct path *paths, bool *inside)
+/* A refracted ray meets the far side of what it crossed before anything else.  Bit i: ray i does.
+ */
+static uint64_t meet_crossed_surfaces(struct worker *w, const struct ray_batch *rays,
+                                      const struct path *paths)
 {
-    memset(inside, 0, BATCH * sizeof *inside);
+    uint64_t inside = 0;
     for (uint32_t i = 0; i < rays->n && paths && !w->tracer->modern; i++) {
         struct hit hit;
-        inside[i] = paths[i].crossed != SURFACE_NONE &&
-                    hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit);
-        if (inside[i])
-            hit_put(&w->hits, i, &hit);
+        if (paths[i].crossed == SURFACE_NONE ||
+            !hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit))
+            continue;
+        inside |= UINT64_C(1) << i;
+        hit_put(&w->hits, i, &hit);
     }
+    return inside;
 }
 
 /* ---- their points and normals ---------------------------------------------------------------- */
@@ -94,8 +109,7 @@ static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_
     points->surface[k] = prim.surface;
     points->t[k] = w->hits.t[i];
     vec3_put(&points->incoming, k, vec3_get(&rays->direction, i));
-    vec3_put(&shapes->origin, k, vec3_get(&rays->origin, i));
-    shapes->t[k] = w->hits.t[i];
+    vec3_put(&shapes->origins, k, vec3_get(&rays->origin, i));
     shapes->part[k] = w->hits.part[i];
     gather_shape(shapes, w->tracer->scene, k, k + 1, prim);
 }
@@ -112,6 +126,8 @@ static void gather_any(struct worker *w, const struct ray_batch *rays)
         of_kind[kind][n[kind]++] = i;
     }
     w->points.n = 0;
+    w->points.in_order = false;
+    w->shapes.origin = &w->shapes.origins;
     for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
         w->shapes.first[kind] = w->points.n;
         for (uint32_t k = 0; k < n[kind]; k++) {
@@ -130,15 +146,15 @@ static void gather_same(struct worker *w, const struct ray_batch *rays)
     uint32_t n = rays->n, number = (uint32_t)w->hits.prim[0];
     struct prim prim = w->tracer->scene->geometry.prims.at[number];
     points->n = n;
+    points->in_order = true;
     for (uint32_t k = 0; k < n; k++) {
         points->ray[k] = k;
         points->prim[k] = number;
         points->surface[k] = prim.surface;
     }
     vec3_copy(&points->incoming, n, &rays->direction);
-    vec3_copy(&shapes->origin, n, &rays->origin);
+    shapes->origin = &rays->origin;
     memcpy(points->t, w->hits.t, n * sizeof *points->t);
-    memcpy(shapes->t, w->hits.t, n * sizeof *shapes->t);
     memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
     gather_shape(shapes, w->tracer->scene, 0, n, prim);
     for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
@@ -147,10 +163,11 @@ static void gather_same(struct worker *w, const struct ray_batch *rays)
 
 static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
 {
-    bool same = hits->prim[0] != PRIM_NONE;
+    uint64_t number[BATCH], differing = 0; /* as bits, which are compared side by side */
+    memcpy(number, hits->prim, n * sizeof *number);
     for (uint32_t i = 1; i < n; i++)
-        same &= hits->prim[i] == hits->prim[0];
-    return same;
+        differing |= number[i] ^ number[0];
+    return differing == 0 && hits->prim[0] != PRIM_NONE;
 }
 
 static void gather_points(struct worker *w, const struct ray_batch *rays)
@@ -166,14 +183,17 @@ static void settle_points(struct worker *w)
 {
     const struct geometry *g = &w->tracer->scene->geometry;
     struct shade_batch *points = &w->points;
-    uint32_t k = w->shapes.first[PRIM_TRIANGLE], end = w->shapes.first[PRIM_TRIANGLE + 1];
-    while (k < end) {
+    uint32_t end = w->shapes.first[PRIM_TRIANGLE + 1];
+    for (uint32_t k = w->shapes.first[PRIM_TRIANGLE], next; k < end; k = next) {
         uint32_t prim = points->prim[k];
+        for (next = k + 1; next < end && points->prim[next] == prim;)
+            next++;
         struct fence fence = triangle_fence(g, prim);
-        for (; k < end && points->prim[k] == prim; k++) {
-            struct vec3 p = vec3_get(&points->p, k);
-            if (!fence_holds(&fence, p))
-                vec3_put(&points->p, k, triangle_settle(g, prim, p, vec3_largest(p)));
+        uint64_t left = w->tracer->kernels->outside(&fence, &points->p, k, next);
+        for (; left; left &= left - 1) {
+            uint32_t i = (uint32_t)__builtin_ctzll(left);
+            struct vec3 p = vec3_get(&points->p, i);
+            vec3_put(&points->p, i, triangle_settle(g, prim, p, vec3_largest(p)));
         }
     }
 }
@@ -185,7 +205,7 @@ static void find_points_on_instances(struct worker *w)
     struct shade_batch *points = &w->points;
     const struct hit_shapes *shapes = &w->shapes;
     for (uint32_t k = shapes->first[PRIM_INSTANCE]; k < shapes->first[PRIM_INSTANCE + 1]; k++) {
-        struct ray ray = {.origin = vec3_get(&shapes->origin, k),
+        struct ray ray = {.origin = vec3_get(shapes->origin, k),
                           .direction = vec3_get(&points->incoming, k)};
         struct hit hit = {
             .t = points->t[k], .prim = points->prim[k], .part = (uint32_t)shapes->part[k]};
@@ -396,10 +416,10 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
     const struct surface *surface = &t->scene->surfaces.at[points->surface[first]];
     const struct finish *finish = &t->finishes[surface->material];
     struct vec3 diffuse = finish->material->diffuse;
-    for (uint32_t k = first; k < end; k++) {
+    for (uint32_t k = first; k < end; k++)
         points->finish[k] = finish;
+    for (uint32_t k = first; k < end; k++)
         points->power[k] = finish->power;
-    }
     vec3_fill(&points->diffuse, first, end, diffuse);
     vec3_fill(&points->specular, first, end, finish->specular);
     points->any_uneven |= finish->uneven;
@@ -412,6 +432,8 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
 static bool one_surface(const struct shade_batch *points)
 {
     uint32_t differing = 0;
+    if (points->in_order)
+        return true;
     for (uint32_t k = 1; k < points->n; k++)
         differing |= points->surface[k] ^ points->surface[0];
     return differing == 0;
@@ -429,7 +451,7 @@ static void finish_points(struct worker *w)
     }
     points->any_uneven = points->any_glowing = points->any_bounces = false;
     for (uint32_t first = 0, end; first < points->n; first = end) {
-        end = first + 1;
+        end = points->in_order ? points->n : first + 1;
         while (end < points->n && points->surface[end] == points->surface[first])
             end++;
         finish_run(w, first, end);
@@ -438,29 +460,30 @@ static void finish_points(struct worker *w)
         bend_normals(w);
     if (w->paints.n > 0)
         paint(w);
-    for (uint32_t k = 0; k < points->n; k++)
-        points->facing[k] = vec3_dot(vec3_get(&points->normal, k), vec3_get(&points->incoming, k));
+    w->tracer->kernels->face(points);
 }
 
 void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths)
 {
     const struct tracer *t = w->tracer;
-    struct target_list list;
-    bool inside[BATCH];
-    if (rays->n == 0) {
-        w->points.n = 0;
+    struct shade_batch *points = &w->points;
+    struct target_list room;
+    points->n = 0;
+    points->in_order = points->any_bounces = false;
+    if (rays->n == 0)
         return;
-    }
-    find_targets(t, rays, &list);
-    bundle_closest(&t->accel, t->bundles, rays, &list, &w->hits);
-    meet_crossed_surfaces(w, rays, paths, inside);
+    const struct target_list *list = find_targets(t, rays, paths ? NULL : &w->lookout, &room);
+    if (list->usable && list->n == 0)
+        return;
+    bundle_closest(&t->accel, t->bundles, rays, list, &w->hits);
+    uint64_t inside = meet_crossed_surfaces(w, rays, paths);
     gather_points(w, rays);
-    for (uint32_t k = 0; k < w->points.n; k++)
-        w->points.inside[k] = inside[w->points.ray[k]];
-    t->kernels->hit_points(&t->scene->geometry, &w->shapes, &w->points);
+    for (uint32_t k = 0; k < points->n; k++)
+        points->inside[k] = inside >> points->ray[k] & 1;
+    t->kernels->hit_points(&t->scene->geometry, &w->shapes, points);
     settle_points(w);
     if (w->shapes.weighted)
-        t->kernels->weights(&t->scene->geometry, &w->shapes, &w->points);
+        t->kernels->weights(&t->scene->geometry, &w->shapes, points);
     find_points_on_instances(w);
     finish_points(w);
 }

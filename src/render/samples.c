@@ -46,11 +46,67 @@ const struct ray_batch *rays_through(struct worker *w, double *x, double *y, uin
     fill(x, n, BATCH_ROOM, 0);
     fill(y, n, BATCH_ROOM, 0);
     rays->n = n;
+    w->lookout.known = false;
     if (!t->lens.parallel)
         t->kernels->aim(&t->lens, x, y, n, &rays->direction);
     for (uint32_t i = 0; i < n && t->lens.parallel; i++)
         vec3_put(&rays->origin, i, lens_origin(&t->lens, x[i], y[i]));
     return rays;
+}
+
+/* ---- what they can meet ---------------------------------------------------------------------- */
+
+/* A row of so many pixels' tiles has one list in common. */
+enum { VIEW_WIDTH = 8 * TILE };
+
+/* Bounds of origin + x across + y upwards for x and y between the ends. */
+static struct box parallelogram(const struct vec3 origin, struct vec3 across, const double x[2],
+                                struct vec3 upwards, const double y[2])
+{
+    struct vec3 left = vec3_scale(across, x[0]), right = vec3_scale(across, x[1]);
+    struct vec3 low = vec3_scale(upwards, y[0]), high = vec3_scale(upwards, y[1]);
+    double reach = vec3_largest(origin) + vec3_largest(across) + vec3_largest(upwards);
+    struct vec3 rounding = vec3_all(0x1p-40 * reach);
+    struct vec3 lo = vec3_add(vec3_min(left, right), vec3_min(low, high));
+    struct vec3 hi = vec3_add(vec3_max(left, right), vec3_max(low, high));
+    return (struct box){vec3_sub(vec3_add(origin, lo), rounding),
+                        vec3_add(vec3_add(origin, hi), rounding)};
+}
+
+/* Lists what camera rays anywhere in the row of tiles around this one can meet, if it is another
+ * row than the last one.  Samples lie less than a pixel outside of theirs. */
+static void look(struct worker *w, const struct tile *tile)
+{
+    const struct tracer *t = w->tracer;
+    const struct lens *lens = &t->lens;
+    const struct camera *camera = &t->scene->camera;
+    const struct render_options *o = t->options;
+    uint32_t from = tile->x0 / VIEW_WIDTH, first = from * VIEW_WIDTH;
+    struct lookout *ahead = &w->lookout;
+    ahead->known = t->skips && !bundle_needs_no_lists(&t->accel);
+    if (!ahead->known || (ahead->x == from && ahead->y == tile->y1))
+        return;
+    double x[2], y[2], low = o->height - tile->y1;
+    x[0] = camera_place(camera, first - 1.0, o->width);
+    x[1] = camera_place(camera, first + VIEW_WIDTH + TILE, o->width);
+    y[0] = camera_place(camera, low - 1, o->height);
+    y[1] = camera_place(camera, low + TILE + 1, o->height);
+    struct box origins = {lens->origin, lens->origin}, directions = {lens->ahead, lens->ahead};
+    if (lens->parallel)
+        origins = parallelogram(lens->origin, lens->across, x, lens->upwards, y);
+    else
+        directions = parallelogram(lens->ahead, lens->across, x, lens->upwards, y);
+    if (lens->mirrored) {
+        double z = directions.lo.z;
+        directions.lo.z = -directions.hi.z;
+        directions.hi.z = -z;
+    }
+    struct shaft shaft = shaft_of_rays(&t->accel, origins, directions);
+    shaft_list(&t->accel, &shaft, &ahead->list);
+    if (ahead->list.usable)
+        shaft_sort(&t->accel, &shaft, &ahead->list);
+    ahead->x = from;
+    ahead->y = tile->y1;
 }
 
 const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
@@ -69,7 +125,9 @@ const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
         for (uint32_t i = 0; i < width && o->jitter; i++)
             jitter(t, tile->x0 + i, o->height - tile->y1 + j, sample, &x[n + i], &y[n + i]);
     }
-    return rays_through(w, x, y, n);
+    const struct ray_batch *rays = rays_through(w, x, y, n);
+    look(w, tile);
+    return rays;
 }
 
 /* A worker whose camera rays lack nothing but their directions, or origins where they are parallel.

@@ -47,22 +47,23 @@ uint32_t find_blocker(const struct tracer *t, const struct ray *ray)
 
 /* A ray is blocked when its nearest hit is not emissive, in modern also when something behind it is
  * not; where nothing is emissive, when it hits anything. */
-void find_blocked(struct worker *w, const struct target_list *list, bool *blocked)
+uint64_t find_blocked(struct worker *w, const struct target_list *list)
 {
     const struct tracer *t = w->tracer;
     const struct ray_batch *rays = &w->shadow_rays;
     struct hit_batch hits;
+    uint64_t blocked = 0;
     w->stats.shadow += rays->n;
-    if (!lets_light(t, list)) {
-        bundle_any(&t->accel, t->bundles, rays, list, blocked);
-        return;
-    }
+    if (!lets_light(t, list))
+        return bundle_any(&t->accel, t->bundles, rays, list);
     bundle_closest(&t->accel, t->bundles, rays, list, &hits);
     for (uint32_t i = 0; i < rays->n; i++) {
-        blocked[i] = hits.prim[i] != PRIM_NONE && !is_emissive(t, (uint32_t)hits.prim[i]);
-        if (t->modern && hits.prim[i] != PRIM_NONE && !blocked[i])
-            blocked[i] = first_opaque(t, ray_get(rays, i), hit_get(&hits, i)) != PRIM_NONE;
+        bool stops = hits.prim[i] != PRIM_NONE && !is_emissive(t, (uint32_t)hits.prim[i]);
+        if (t->modern && hits.prim[i] != PRIM_NONE && !stops)
+            stops = first_opaque(t, ray_get(rays, i), hit_get(&hits, i)) != PRIM_NONE;
+        blocked |= (uint64_t)stops << i;
     }
+    return blocked;
 }
 
 /* The rays from the point through the lamp's points. */
@@ -88,16 +89,15 @@ static void keep_counted(struct worker *w, const struct lamp *lamp, const struct
                          uint32_t *counts)
 {
     struct ray_batch *rays = &w->shadow_rays;
-    bool meets[BATCH];
     double t_max[BATCH], from = rays->from[0];
     uint32_t n = 0;
     memcpy(t_max, rays->t_max, to->n * sizeof *t_max);
     fill(rays->t_max, 0, to->n, RAY_UNBOUNDED);
     fill(rays->from, 0, to->n, PRIM_NONE);
-    bundle_any(&lamp->object, w->tracer->bundles, rays, &lamp->targets, meets);
+    uint64_t meets = bundle_any(&lamp->object, w->tracer->bundles, rays, &lamp->targets);
     fill(rays->from, 0, to->n, from);
     for (uint32_t i = 0; i < to->n; i++) {
-        if (!meets[i] && !to->counts[i])
+        if (!(meets >> i & 1) && !to->counts[i])
             continue;
         vec3_put(&rays->direction, n, vec3_get(&rays->direction, i));
         rays->t_max[n] = t_max[i];
@@ -126,12 +126,11 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
     for (size_t k = 0; k < lamp->point_batches; k++) {
         uint32_t room[BATCH];
         const uint32_t *counts;
-        bool blocked[BATCH];
         aim_at_points(w, lamp, k, p, prim, room, &counts);
-        find_blocked(w, list, blocked);
+        uint64_t blocked = find_blocked(w, list);
         for (uint32_t i = 0; i < w->shadow_rays.n; i++) {
             counted += counts[i];
-            lit += blocked[i] ? 0 : counts[i];
+            lit += blocked >> i & 1 ? 0 : counts[i];
         }
     }
     return counted ? (double)lit / (double)counted : 0;
@@ -188,30 +187,17 @@ double shadow_reach(const struct tracer *t, const struct light *light)
     return light->kind == LIGHT_SUN ? RAY_UNBOUNDED : t->modern ? 1 - LIGHT_CLEARANCE : 1;
 }
 
-static void subtract(double from, const double *x, uint32_t n, double *difference)
-{
-    for (uint32_t i = 0; i < n; i++)
-        difference[i] = from - x[i];
-}
-
 void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which, uint32_t n)
 {
+    const struct tracer *t = w->tracer;
     const struct shade_batch *points = &w->points;
-    const struct vec3_batch *from = w->tracer->modern ? &points->lifted : &points->p;
     struct ray_batch *rays = &w->shadow_rays;
-    if (n == points->n)
-        vec3_copy(&rays->origin, n, from);
-    for (uint32_t i = 0; i < n && n < points->n; i++)
-        vec3_put(&rays->origin, i, vec3_get(from, which[i]));
-    for (uint32_t i = 0; i < n; i++)
+    t->kernels->aim_at(light, t->modern ? &points->lifted : &points->p, points->prim,
+                       shadow_reach(t, light), points->n, rays);
+    for (uint32_t i = 0; i < n && n < points->n; i++) {
+        vec3_put(&rays->origin, i, vec3_get(&rays->origin, which[i]));
+        vec3_put(&rays->direction, i, vec3_get(&rays->direction, which[i]));
         rays->from[i] = points->prim[which[i]];
-    fill(rays->t_max, 0, n, shadow_reach(w->tracer, light));
-    if (light->kind == LIGHT_SUN) {
-        vec3_fill(&rays->direction, 0, n, light->position);
-    } else {
-        subtract(light->position.x, rays->origin.x, n, rays->direction.x);
-        subtract(light->position.y, rays->origin.y, n, rays->direction.y);
-        subtract(light->position.z, rays->origin.z, n, rays->direction.z);
     }
     rays->n = n;
     rays->common_origin = n == 1;
@@ -220,15 +206,14 @@ void aim_at_light(struct worker *w, const struct light *light, const uint32_t *w
 static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
                          double *shares)
 {
-    bool blocked[BATCH];
     uint32_t which[BATCH], n = lit_points(&w->points, which);
     fill(shares, 0, w->points.n, 1);
     if (n == 0)
         return;
     aim_at_light(w, lamp->light, which, n);
-    find_blocked(w, list, blocked);
-    for (uint32_t i = 0; i < n; i++)
-        shares[which[i]] = blocked[i] ? 0 : 1;
+    uint64_t blocked = find_blocked(w, list);
+    for (; blocked; blocked &= blocked - 1)
+        shares[which[__builtin_ctzll(blocked)]] = 0;
 }
 
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares)

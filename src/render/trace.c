@@ -59,6 +59,18 @@ static void add_lights(struct worker *w)
         shading->add(w, k, box);
 }
 
+/* What the rays see before others come back. */
+static void put_colours(const struct worker *w, uint32_t n, struct vec3_batch *colours)
+{
+    if (w->points.in_order) {
+        vec3_copy(colours, n, &w->light.direct);
+        return;
+    }
+    vec3_fill(colours, 0, n, w->tracer->scene->background);
+    for (uint32_t k = 0; k < w->points.n; k++)
+        vec3_put(colours, w->points.ray[k], vec3_get(&w->light.direct, k));
+}
+
 /* A ray's colour is its direct light, then its reflection, then its refraction: the order of the
  * sum, and so every bit of it, does not depend on what else is in the batch. */
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
@@ -66,12 +78,10 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
 {
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
-    vec3_fill(colours, 0, rays->n, t->scene->background);
     find_points(w, rays, paths);
     if (w->points.n > 0)
         add_lights(w);
-    for (uint32_t k = 0; k < w->points.n; k++)
-        vec3_put(colours, w->points.ray[k], vec3_get(&w->light.direct, k));
+    put_colours(w, rays->n, colours);
     if (depth < t->options->depth && w->points.any_bounces)
         t->shading->spawn(w, level, paths);
     w->stats.reflection += level->reflected.rays.n;

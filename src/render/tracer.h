@@ -117,9 +117,10 @@ struct shade_batch {
     alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
     alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
     uint32_t prim[BATCH_ROOM], surface[BATCH];
-    uint32_t ray[BATCH]; /* place in the batch of rays */
-    double t[BATCH];     /* distance along it */
-    bool inside[BATCH];  /* refracted into the surface it meets: the far side of what it crossed */
+    uint32_t ray[BATCH];              /* place in the batch of rays */
+    bool in_order;                    /* point k is ray k's, for all rays */
+    alignas(64) double t[BATCH_ROOM]; /* distance along it */
+    bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
     bool any_uneven;  /* some highlight is not multiplied out, some metal is textured */
     bool any_glowing; /* some is emissive */
@@ -164,15 +165,22 @@ struct textured {
 /* Hits and the primitives they lie on, by kind: from first[kind] to first[kind + 1]. */
 struct hit_shapes {
     uint32_t first[PRIM_KINDS + 1];
-    bool weighted;            /* some triangle's surface has something to interpolate */
-    struct vec3_batch origin; /* of the ray */
-    alignas(64) double t[BATCH_ROOM];
+    bool weighted;                   /* some triangle's surface has something to interpolate */
+    const struct vec3_batch *origin; /* of the ray: these or the rays' own */
+    struct vec3_batch origins;
     struct vec3_batch at;            /* sphere's center, cylinder's base, triangle's first corner */
     struct vec3_batch along;         /* cylinder's axis, triangle's normal */
     struct vec3_batch second, third; /* corners, where weighted */
     alignas(64) double radius[BATCH_ROOM];
     alignas(64) double height[BATCH_ROOM];
     alignas(64) double part[BATCH_ROOM];
+};
+
+/* What camera rays through a part of the picture can meet. */
+struct lookout {
+    bool known;
+    uint32_t x, y; /* which part */
+    struct target_list list;
 };
 
 /* What some points see of a lamp, and what can stand in its way. */
@@ -200,6 +208,14 @@ struct render_kernels {
     /* Bends the normals by the texels of normal maps, as the original does: in world coordinates.
      * Points without a normal map have bent[i] = 0. */
     void (*bend)(const struct vec3_batch *texels, const double *bent, struct shade_batch *points);
+    /* Fills in the cosines between normals and incoming rays. */
+    void (*face)(struct shade_batch *points);
+    /* Bit k: point k, one of those from `first` to `end`, is not inside of the fence. */
+    uint64_t (*outside)(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
+                        uint32_t end);
+    /* The rays from n points, which lie on `prims`, to a light that has one for each point. */
+    void (*aim_at)(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
+                   double t_max, uint32_t n, struct ray_batch *rays);
     /* Adds what the light gives, of which `shares` arrive. */
     void (*add_light)(const struct shade_batch *points, const struct light *light,
                       const double *shares, struct light_batch *sums);
@@ -234,6 +250,7 @@ struct worker {
     struct render_stats stats;
     VEC(struct level *) levels; /* by depth, made when first needed */
     struct ray_batch camera_rays;
+    struct lookout lookout; /* of the camera rays */
     struct vec3_batch colours;
     struct vec3_batch sums; /* of all samples of a tile's pixels */
     /* Of the batch being shaded: */
@@ -266,8 +283,8 @@ enum lamp_view lamp_view(const struct sight *sight, uint32_t k, struct target_li
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
 /* How far a shadow ray to the light goes, in its own length. */
 double shadow_reach(const struct tracer *t, const struct light *light);
-/* Traces w->shadow_rays: which of them meet what blocks light. */
-void find_blocked(struct worker *w, const struct target_list *list, bool *blocked);
+/* Traces w->shadow_rays; bit i: ray i meets what blocks light. */
+uint64_t find_blocked(struct worker *w, const struct target_list *list);
 /* The primitive that blocks a shadow ray's light, or PRIM_NONE. */
 uint32_t find_blocker(const struct tracer *t, const struct ray *ray);
 /* Fill w->shadow_rays with rays to a light: from n of w->points to one that has a single ray a

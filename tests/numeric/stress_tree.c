@@ -223,16 +223,16 @@ static void fill_batch(struct dice *d, struct ray_batch *batch, const struct geo
 static void compare_kernels(const struct geometry *g, const struct ray_batch *rays,
                             const struct target_list *list, struct tally *tally)
 {
-    struct hit_batch expected, blocked, hits;
+    struct hit_batch expected, hits;
     bundle_kernels_of(ISA_PLAIN)->closest(g, rays, list, &expected);
     for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
         if (!isa_available((enum isa)isa))
             continue;
         bundle_kernels_of((enum isa)isa)->closest(g, rays, list, &hits);
-        bundle_kernels_of((enum isa)isa)->any(g, rays, list, &blocked);
+        uint64_t blocked = bundle_kernels_of((enum isa)isa)->any(g, rays, list);
         for (uint32_t i = 0; i < rays->n; i++) {
-            struct hit a = hit_get(&hits, i), b = hit_get(&expected, i), c = hit_get(&blocked, i);
-            tally->wrong += !same_hit(&a, &b) || (c.prim == PRIM_NONE) != (b.prim == PRIM_NONE);
+            struct hit a = hit_get(&hits, i), b = hit_get(&expected, i);
+            tally->wrong += !same_hit(&a, &b) || (blocked >> i & 1) != (b.prim != PRIM_NONE);
         }
     }
     tally->cases += rays->n;
