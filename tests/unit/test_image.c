@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/vec.h"
 #include "image/picture.h"
+#include "math/srgb_bytes.h"
 
 #include "unit.h"
 
@@ -500,6 +501,33 @@ START_TEST(colour_is_rounded)
 }
 END_TEST
 
+/* What the table stands for. */
+static uint8_t srgb_by_power(double light)
+{
+    return (uint8_t)(picture_channel(ENCODING_SRGB, light) * 255 + 0.5);
+}
+
+/* Around each byte's least light, in all slots of the table, and where there is no byte. */
+START_TEST(srgb_bytes_are_the_nearest)
+{
+    static const double strange[] = {0, -0.0, -1, NAN, 1, 2, INFINITY, -INFINITY, 1e-320, 1e300};
+    struct srgb_bytes table;
+    srgb_bytes_init(&table);
+    for (size_t i = 0; i < COUNT(strange); i++)
+        ck_assert_uint_eq(srgb_byte(&table, strange[i]), srgb_by_power(strange[i]));
+    for (int byte = 1; byte < 256; byte++) {
+        double light = table.from[byte];
+        for (int i = 0; i < 100; i++, light = nextafter(light, 0))
+            ck_assert_uint_eq(srgb_byte(&table, light), i == 0 ? byte : srgb_by_power(light));
+        light = table.from[byte];
+        for (int i = 0; i < 100; i++, light = nextafter(light, 1))
+            ck_assert_uint_eq(srgb_byte(&table, light), byte);
+    }
+    for (double light = 0x1p-14; light < 1; light *= 1 + 0x1p-12)
+        ck_assert_uint_eq(srgb_byte(&table, light), srgb_by_power(light));
+}
+END_TEST
+
 static const struct {
     uint64_t width, height;
     bool allowed;
@@ -731,6 +759,7 @@ static TCase *picture_case(void)
     tcase_add_loop_test(c, pfm_is_read_or_refused, 0, COUNT(pfms));
     tcase_add_test(c, pfm_survives_round_trip);
     tcase_add_test(c, deep_png_is_no_picture);
+    tcase_add_test(c, srgb_bytes_are_the_nearest);
     return c;
 }
 

@@ -192,6 +192,79 @@ START_TEST(bounds_hold_all_points)
 }
 END_TEST
 
+/* As picture_set stores them. */
+START_TEST(packed_pixels_are_those_of_single_colours)
+{
+    struct vec3_batch colours;
+    struct picture *p = picture_new(BATCH, 1, false), *q = picture_new(BATCH, 1, false);
+    picture_encode_as(p, _i ? ENCODING_LINEAR : ENCODING_PLAIN);
+    for (uint32_t i = 0; i < BATCH_ROOM; i++)
+        vec3_put(&colours, i,
+                 vec3(coordinate_at(7, i, 0), coordinate_at(8, i, 1), coordinate_at(9, i, 2)));
+    for (uint32_t i = 0; i < BATCH; i++)
+        picture_set(p, i, 0, vec3_get(&colours, i));
+    for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
+        uint32_t pixels[BATCH_ROOM];
+        if (!isa_available((enum isa)isa))
+            continue;
+        render_kernels_of((enum isa)isa)->pack(&colours, BATCH, picture_rounding(p), pixels);
+        picture_set_row(q, 0, 0, pixels, BATCH);
+        ck_assert_int_eq(memcmp(p->bytes, q->bytes, 3 * BATCH), 0);
+    }
+    picture_free(p);
+    picture_free(q);
+}
+END_TEST
+
+/* From each of them to each of them, around a triangle. */
+START_TEST(fences_tell_who_is_outside)
+{
+    struct geometry g = {0};
+    make_geometry(&g, 1);
+    uint32_t prim = 0;
+    while (g.prims.at[prim].kind != PRIM_TRIANGLE)
+        prim++;
+    struct fence fence = triangle_fence(&g, prim);
+    struct vec3_batch points;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++)
+        vec3_put(&points, i, random_vec3(3, i, 0));
+    for (uint32_t first = 0; first < BATCH; first += 3) {
+        for (uint32_t end = first + 1; end <= BATCH; end++) {
+            uint64_t expected = render_plain.outside(&fence, &points, first, end);
+            for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++)
+                if (isa_available((enum isa)isa))
+                    ck_assert(
+                        render_kernels_of((enum isa)isa)->outside(&fence, &points, first, end) ==
+                        expected);
+        }
+    }
+    geometry_free(&g);
+}
+END_TEST
+
+START_TEST(rays_to_lights_are_those_of_single_points)
+{
+    struct light light = {.kind = _i ? LIGHT_SUN : LIGHT_POINT, .position = random_vec3(5, 0, 0)};
+    struct vec3_batch points;
+    uint32_t prims[BATCH_ROOM];
+    struct ray_batch expected, rays;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++) {
+        vec3_put(&points, i, random_vec3(6, i, 0));
+        prims[i] = GEOMETRY_LIMIT - 1 - 17 * i;
+    }
+    render_plain.aim_at(&light, &points, prims, 0.75, BATCH, &expected);
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        render_kernels_of((enum isa)isa)->aim_at(&light, &points, prims, 0.75, BATCH, &rays);
+        check_same_vectors(&rays.origin, &expected.origin, BATCH);
+        check_same_vectors(&rays.direction, &expected.direction, BATCH);
+        for (uint32_t i = 0; i < BATCH; i++)
+            ck_assert(rays.from[i] == prims[i] && rays.t_max[i] == 0.75);
+    }
+}
+END_TEST
+
 START_TEST(instruction_sets_have_names)
 {
     for (int i = 0; i < ISA_COUNT; i++) {
@@ -211,6 +284,9 @@ Suite *kernels_suite(void)
     tcase_add_loop_test(c, bundles_meet_what_single_rays_meet, 0, 64);
     tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 8);
     tcase_add_test(c, bounds_hold_all_points);
+    tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 2);
+    tcase_add_test(c, fences_tell_who_is_outside);
+    tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
     tcase_add_test(c, instruction_sets_have_names);
     suite_add_tcase(s, c);
     return s;
