@@ -241,9 +241,9 @@ static bool is_second_opening(const struct parser *p, const struct open_element 
 
 static bool is_section(struct str name)
 {
-    static const char sections[] = "camera lights textures surfaces";
-    for (unsigned i = 0; str_nth_word(sections, i).n; i++)
-        if (str_equal(name, str_nth_word(sections, i)))
+    static const char *const sections[] = {"camera", "lights", "textures", "surfaces"};
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)
+        if (str_is(name, sections[i]))
             return true;
     return false;
 }
@@ -253,11 +253,11 @@ static bool is_section(struct str name)
 static size_t closed_by_opening(const struct parser *p, struct str name)
 {
     enum { SECTION = 1, ITEM = 2 }; /* where they stand among the open ones */
-    bool item = str_is(name, "surface") || str_is(name, "light");
+    if (p->open.n > ITEM && str_equal(name, p->open.at[ITEM].name) &&
+        (str_is(name, "surface") || str_is(name, "light")))
+        return p->open.n - ITEM;
     if (p->open.n > SECTION && is_section(name) && is_section(p->open.at[SECTION].name))
         return p->open.n - SECTION;
-    if (p->open.n > ITEM && item && str_equal(name, p->open.at[ITEM].name))
-        return p->open.n - ITEM;
     return 0;
 }
 
