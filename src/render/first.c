@@ -87,18 +87,22 @@ bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first 
     const struct colour *corner[4] = {lower, lower + 1, upper, upper + 1};
     const struct colour *middle = f->middle + frame_pixel(f, x, y);
     bool all = middle->seen;
-    first->middle = vec3_of(all ? middle : nearest_middle(f, x, y));
+    first->sample[4] = vec3_of(all ? middle : nearest_middle(f, x, y));
     for (int i = 0; i < 4 && all; i++) {
-        first->corner[i] = vec3_of(corner[i]);
+        first->sample[i] = vec3_of(corner[i]);
         all = corner[i]->seen;
     }
     return all;
 }
 
+struct estimate first_estimate(const struct frame *f, const struct first *first)
+{
+    return cubature_estimate(first->sample, CUBATURE_FIRST, f->tracer->options->jitter);
+}
+
 static void judge_row(void *context, size_t row, unsigned worker)
 {
     struct frame *f = context;
-    bool noisy = f->tracer->options->jitter;
     uint32_t y = f->area.y0 + (uint32_t)row;
     (void)worker;
     for (uint32_t x = f->area.x0; x < f->area.x1; x++) {
@@ -107,7 +111,7 @@ static void judge_row(void *context, size_t row, unsigned worker)
         if (!f->middle[frame_pixel(f, x, y)].wanted)
             continue;
         if (first_of_pixel(f, x, y, &first)) {
-            struct estimate e = cubature_estimate(first.corner, first.middle, noisy);
+            struct estimate e = first_estimate(f, &first);
             error = stored_error(f, &e);
         }
         f->first_error[frame_pixel(f, x, y)] = (float)error;

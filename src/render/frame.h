@@ -78,13 +78,13 @@ void first_corners(struct frame *f);
 /* What these say of the errors of pixels whose middles are wanted. */
 void first_errors(struct frame *f);
 
-/* The first samples of a pixel. */
+/* The first samples of a pixel, in the order of cubature_begin(). */
 struct first {
-    struct vec3 corner[4]; /* as cubature_begin() wants them */
-    struct vec3 middle;
+    struct vec3 sample[CUBATURE_FIRST];
 };
 /* false when they are not all known; the middle then is that of a pixel nearby. */
 bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first *first);
+struct estimate first_estimate(const struct frame *f, const struct first *first);
 
 /* ---- refine.c ---- */
 

@@ -69,7 +69,7 @@ double stored_error(const struct frame *f, const struct estimate *e)
  * the most, white; as floats the number itself. */
 static struct vec3 heat(uint32_t samples, bool bytes)
 {
-    enum { FEWEST = 5, STEPS = 4 };
+    enum { FEWEST = CUBATURE_FIRST, STEPS = 4 };
     static const struct vec3 colour[STEPS + 1] = {
         {0, 0, 0.4}, {0, 0.7, 0.9}, {1, 0.9, 0}, {0.9, 0, 0}, {1, 1, 1}};
     if (!bytes)
@@ -96,13 +96,17 @@ static double stretch(double stored, double variance)
     return variance > 0 ? stored * stored / variance : 0;
 }
 
-/* Cuts a pixel in as many cells as all under way have at least, and then the worst of it while its
- * error is too large; false when it is done. */
+/* Wants the samples that all pixels under way have at least, and then more for the worst of it
+ * while its error is too large; false when it is done. */
 static bool cut(const struct frame *f, struct cubature *c)
 {
-    uint32_t grid = f->tracer->options->grid, least = grid > 2 ? grid : 2;
-    if (c->cells < least * least) {
+    uint32_t grid = f->tracer->options->grid;
+    if (c->cells < grid * grid) {
         cubature_cut_all(c);
+        return true;
+    }
+    if (c->samples == CUBATURE_FIRST) {
+        cubature_quarter_all(c);
         return true;
     }
     if (!(stored_error(f, &c->whole) > f->target))
@@ -114,9 +118,7 @@ static bool cut(const struct frame *f, struct cubature *c)
 static void start_pixel(const struct frame *f, const struct first *first, struct cubature *c)
 {
     cubature_begin(c, f->tracer->options->jitter);
-    for (int i = 0; i < 4; i++)
-        c->value[i] = first->corner[i];
-    c->value[4] = first->middle;
+    memcpy(c->value, first->sample, sizeof first->sample);
     cubature_settle(c);
 }
 
@@ -154,20 +156,19 @@ static double doubt(const struct frame *f, uint32_t x, uint32_t y)
 /* The picture that the first samples give; false where they are not all known. */
 static bool begin_pixel(struct frame *f, struct refiner *r, uint32_t x, uint32_t y)
 {
-    enum { FIRST = 5 };
     size_t pixel = frame_pixel(f, x, y);
     struct first first;
     if (f->error[pixel] < INFINITY)
         return true;
     f->error[pixel] = f->first_error[pixel];
     if (!first_of_pixel(f, x, y, &first)) {
-        set_pixel(f, x, y, first.middle, 1);
+        set_pixel(f, x, y, first.sample[CUBATURE_FIRST - 1], 1);
         r->most = r->most > 1 ? r->most : 1;
         return false;
     }
-    struct estimate e = cubature_estimate(first.corner, first.middle, f->tracer->options->jitter);
-    set_pixel(f, x, y, e.mean, FIRST);
-    r->most = r->most > FIRST ? r->most : FIRST;
+    struct estimate e = first_estimate(f, &first);
+    set_pixel(f, x, y, e.mean, CUBATURE_FIRST);
+    r->most = r->most > CUBATURE_FIRST ? r->most : CUBATURE_FIRST;
     return true;
 }
 
