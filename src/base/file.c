@@ -159,8 +159,8 @@ static const char *write_all(int fd, const char *p, size_t n)
         ssize_t put = write(fd, p, n);
         if (put < 0 && errno == EINTR)
             continue;
-        if (put < 0)
-            return strerror(errno);
+        if (put <= 0)
+            return strerror(put < 0 ? errno : ENOSPC);
         p += put;
         n -= (size_t)put;
     }
@@ -218,9 +218,13 @@ const char *file_write(const char *path, const void *data, size_t n)
         return write_all(STDOUT_FILENO, data, n);
     struct stat st;
     bool exists = stat(path, &st) == 0;
+    if (!exists && errno != ENOENT)
+        return strerror(errno);
     if (exists && !S_ISREG(st.st_mode))
         return write_directly(path, data, n);
     char *real = exists ? realpath(path, NULL) : NULL; /* a symbolic link stays one */
+    if (exists && !real)
+        return strerror(errno);
     const char *reason = write_renamed(real ? real : path, exists ? &st : NULL, data, n);
     free(real);
     return reason;

@@ -140,7 +140,11 @@ static void compare_with_result(struct conversion *c)
         options.defines.n = 0;
     bool right = frontend_load_text(&f, c->beside, text_of(&c->text), &options) &&
                  lower_scene(&f.desc, &f.sources, &result, &f.diag);
-    if (!right || !compare_scenes(&c->lowered.scene, &result.scene, SHOWN, &comparison)) {
+    if (!right && f.diag.exit == DIAG_EXIT_RESOURCE)
+        diag_report(&c->frontend.diag, DIAG_CANNOT_READ, (struct span){0},
+                    "the result could not be checked, so nothing is written: %s",
+                    f.diag.entries.at[0]->message);
+    else if (!right || !compare_scenes(&c->lowered.scene, &result.scene, SHOWN, &comparison)) {
         struct diag_entry *e =
             diag_report(&c->frontend.diag, DIAG_NOT_VERIFIED, (struct span){0},
                         "the result would be another scene, so nothing is written");

@@ -12,6 +12,7 @@
 #include "cmd/commands.h"
 #include "cmd/options.h"
 
+#include "base/fence.h"
 #include "base/mem.h"
 #include "base/str.h"
 
@@ -74,12 +75,21 @@ static int print_help(const struct command *c)
     return 0;
 }
 
-/* Runs a command within the memory it may have. */
-static int run_limited(int (*run)(const struct options *o), const struct options *o)
+/* Runs a command within the memory and the folder that it may use. */
+static int run_limited(int (*run)(const struct options *o), struct options *o)
 {
-    if (o->max_memory && !mem_limit(o->max_memory))
-        return usage_error("--max-memory: could not set the limit: %s", strerror(errno));
-    return run(o);
+    struct file_fence fence = {.fd = -1};
+    const char *reason = o->restricted ? fence_open(&fence, o->restricted) : NULL;
+    int status = DIAG_EXIT_RESOURCE;
+    o->fence = o->restricted ? &fence : NULL;
+    if (reason)
+        fprintf(stderr, "wrt: error: --restrict: could not open '%s': %s\n", o->restricted, reason);
+    else if (o->max_memory && !mem_limit(o->max_memory))
+        fprintf(stderr, "wrt: error: --max-memory: could not set the limit: %s\n", strerror(errno));
+    else
+        status = run(o);
+    fence_close(&fence);
+    return status;
 }
 
 static int run_command(const struct command *c, int argc, char **argv)

@@ -157,16 +157,6 @@ static bool take_max_memory(const struct opt_row *row, const char *text, struct 
     return false;
 }
 
-static bool take_restrict(const struct opt_row *row, const char *text, struct options *out)
-{
-    fence_close(&out->restricted);
-    const char *reason = fence_open(&out->restricted, text);
-    if (reason)
-        usage_error("--%s: could not open '%s': %s", row->name, text, reason);
-    out->fence = &out->restricted;
-    return !reason;
-}
-
 /* `n` whole numbers with a separator between them. */
 static bool read_list(const char *text, char separator, unsigned n, uint32_t *out)
 {
@@ -536,8 +526,7 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000,
                             .max_pixels = IMAGE_PIXEL_LIMIT,
-                            .max_depth = UINT32_MAX,
-                            .restricted = {.fd = -1}};
+                            .max_depth = UINT32_MAX};
     for (int i = 0; i < MEASURES; i++)
         out->limits[i] = NAN;
     bool options_end = false;
@@ -566,7 +555,6 @@ void options_free(struct options *o)
     vec_free(&o->scenes);
     vec_free(&o->defines);
     vec_free(&o->folders);
-    fence_close(&o->restricted);
 }
 
 void options_help(unsigned command, FILE *out)

@@ -55,8 +55,8 @@ struct options {
     size_t max_objects;
     uint64_t max_memory; /* bytes; 0: no limit */
     uint32_t max_pixels, max_depth;
-    struct file_fence restricted;   /* of --restrict; closed when it is not given */
-    const struct file_fence *fence; /* that one, or NULL */
+    const char *restricted;         /* the folder that files are read from, or NULL */
+    const struct file_fence *fence; /* around it, or NULL */
     enum render_show show;
     enum isa isa;
     enum stats_format stats;

@@ -278,6 +278,11 @@ int lsp_serve(int in, int out, const struct lsp_options *options, struct buffer 
         else
             end_of_input(&s, result, why, problem);
     }
+    if (s.transport.error) {
+        problem->n = 0;
+        buffer_printf(problem, "the client cannot be reached: %s", strerror(s.transport.error));
+        s.status = DIAG_EXIT_RESOURCE;
+    }
     while (s.head < s.queue.n)
         pop(&s);
     vec_free(&s.queue);

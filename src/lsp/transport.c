@@ -46,6 +46,7 @@ bool transport_read(struct transport *t, bool wait)
     while (n < 0 && errno == EINTR);
     if (n <= 0) {
         t->ended = true;
+        t->error = n < 0 ? errno : t->error;
         return false;
     }
     if (t->at)
@@ -187,6 +188,7 @@ bool transport_send(struct transport *t, const json_t *message)
     buffer_printf(&frame, "Content-Length: %zu\r\n\r\n", n);
     buffer_add(&frame, text, n);
     bool sent = write_all(t->out, frame.at, frame.n);
+    t->error = sent ? t->error : errno;
     buffer_free(&frame);
     free(text);
     return sent;

@@ -20,6 +20,7 @@ struct transport {
     size_t at;
     size_t skip; /* bytes of a message that is passed over */
     bool ended;  /* no more will come */
+    int error;   /* of errno: why reading or writing failed; 0: it did not */
 };
 
 enum transport_result {
