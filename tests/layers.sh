@@ -4,7 +4,7 @@
 set -u
 cd "${srcdir:-$(dirname "$0")/..}" || exit 1
 
-order='base diag math image ast schema syntax eval validate print scene lower convert accel render lint lsp cmd'
+order='base diag math image ast schema syntax eval validate print scene lower convert accel render farm lint lsp cmd'
 sources=$(find src grammar -type f \( -name '*.[chly]' -o -name '*.cc' -o -name '*.def' -o -name '*.inc' \) |
     grep -vE '\.(tab|lex)\.[ch]$' | sort)
 if [ -z "$sources" ]; then
@@ -83,8 +83,9 @@ awk -v order="$order" '
         if (code ~ call || code ~ stream || code ~ /std::c(out|err|log)/)
             offence("only src/cmd prints and exits")
     }
-    mine != "cmd" && mine != "base" && code_of($0) ~ /(^|[^a-zA-Z0-9_])(file_read|fopen|openat)[ \t]*[(]/ {
-        offence("only src/cmd reads without a fence: file_read_within()")
+    # the files of src/farm are named on the command line
+    mine != "cmd" && mine != "base" && mine != "farm" && code_of($0) ~ /(^|[^a-zA-Z0-9_])(file_read|fopen|openat)[ \t]*[(]/ {
+        offence("only src/cmd and src/farm read without a fence: file_read_within()")
     }
     END { exit bad > 0 }
 ' $sources

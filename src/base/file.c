@@ -153,8 +153,9 @@ char *file_meant(const struct file_fence *fence, const char *path, size_t from)
     return meant;
 }
 
-static const char *write_all(int fd, const char *p, size_t n)
+const char *file_put(int fd, const void *data, size_t n)
 {
+    const char *p = data;
     while (n) {
         ssize_t put = write(fd, p, n);
         if (put < 0 && errno == EINTR)
@@ -172,7 +173,7 @@ static const char *write_directly(const char *path, const void *data, size_t n)
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return strerror(errno);
-    const char *reason = write_all(fd, data, n);
+    const char *reason = file_put(fd, data, n);
     if (close(fd) != 0 && !reason)
         reason = strerror(errno);
     return reason;
@@ -197,7 +198,7 @@ static const char *write_renamed(const char *path, const struct stat *old, const
     memcpy(temporary, path, length);
     memcpy(temporary + length, suffix, sizeof suffix);
     int fd = mkstemp(temporary);
-    const char *reason = fd < 0 ? strerror(errno) : write_all(fd, data, n);
+    const char *reason = fd < 0 ? strerror(errno) : file_put(fd, data, n);
     if (fd >= 0) {
         if (!reason && fchmod(fd, target_mode(old)) != 0)
             reason = strerror(errno);
@@ -215,7 +216,7 @@ static const char *write_renamed(const char *path, const struct stat *old, const
 const char *file_write(const char *path, const void *data, size_t n)
 {
     if (strcmp(path, "-") == 0)
-        return write_all(STDOUT_FILENO, data, n);
+        return file_put(STDOUT_FILENO, data, n);
     struct stat st;
     bool exists = stat(path, &st) == 0;
     if (!exists && errno != ENOENT)

@@ -39,6 +39,9 @@ char *file_meant(const struct file_fence *fence, const char *path, size_t from);
  * standard output, is written directly.  Returns NULL or a reason. */
 const char *file_write(const char *path, const void *data, size_t n);
 
+/* Writes all n bytes to an open file, and returns NULL or a reason. */
+const char *file_put(int fd, const void *data, size_t n);
+
 /* The path of `name` as spelt in a file at `beside`: relative names start at its folder, or at the
  * current one when that spells none.  A file called "-" is itself.  Caller frees. */
 char *file_resolve(const char *beside, const char *name, size_t name_length);

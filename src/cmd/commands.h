@@ -6,6 +6,7 @@
 
 int command_render(const struct options *o);
 int command_check(const struct options *o);
+int command_merge(const struct options *o);
 int command_diff(const struct options *o);
 int command_fmt(const struct options *o);
 int command_info(const struct options *o);

@@ -18,7 +18,7 @@ void info_pixel(const struct info *i, uint32_t width, uint32_t height, struct in
     uint32_t x = i->options->pixel[0], y = i->options->pixel[1];
     *p = (struct info_pixel){.x = x, .y = y};
     p->ray = probe_pixel(s, &options, x, y, &p->arena);
-    struct picture *picture = picture_new(1, 1, false);
+    struct picture *picture = picture_new(1, 1, PICTURE_BYTES);
     picture_encode_as(picture, render_encoding(s, SHOW_PICTURE));
     picture_set(picture, 0, 0, p->ray->colour);
     for (int k = 0; k < 3; k++)

@@ -30,6 +30,8 @@ static const struct command {
     const char *usage, *summary;
 } commands[] = {
     {"render", FOR_RENDER, command_render, "render SCENE [options]", "render a scene to a picture"},
+    {"merge", FOR_MERGE, command_merge, "merge PART... -o FILE",
+     "join the parts of a picture that --part made"},
     {"check", FOR_CHECK, command_check, "check SCENE... [options]",
      "parse and validate scenes; opens no texture or mesh"},
     {"lint", FOR_LINT, command_lint, "lint SCENE... [options]",

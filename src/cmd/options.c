@@ -4,6 +4,7 @@
 
 #include "base/num.h"
 #include "base/thread.h"
+#include "farm/parts.h"
 
 #include <errno.h>
 #include <math.h>
@@ -125,6 +126,56 @@ static bool take_time(const struct opt_row *row, const char *text, struct option
     return false;
 }
 
+/* `n` whole numbers with a separator between them. */
+static bool read_list(const char *text, char separator, unsigned n, uint32_t *out)
+{
+    for (unsigned i = 0; i < n; i++) {
+        char *end;
+        if (text[0] < '0' || text[0] > '9')
+            return false;
+        unsigned long x = strtoul(text, &end, 10);
+        if (x > UINT32_MAX || *end != (i + 1 < n ? separator : 0))
+            return false;
+        out[i] = (uint32_t)x;
+        text = end + 1;
+    }
+    return true;
+}
+
+static bool take_bits(const struct opt_row *row, const char *text, struct options *out)
+{
+    uint64_t x = 0;
+    if (read_whole(text, 8, 32, &x) && (x == 8 || x == 16 || x == 32)) {
+        out->bits = (uint32_t)x;
+        return true;
+    }
+    usage_error("--%s takes 8, 16 or 32, not '%s'", row->name, text);
+    return false;
+}
+
+static bool take_exposure(const struct opt_row *row, const char *text, struct options *out)
+{
+    const char *end = text + strlen(text);
+    if (num_parse(text, end, &out->exposure) == end && fabs(out->exposure) <= 100)
+        return true;
+    usage_error("--%s takes a number of stops from -100 to 100, not '%s'", row->name, text);
+    return false;
+}
+
+static bool take_part(const struct opt_row *row, const char *text, struct options *out)
+{
+    uint32_t part[2];
+    if (read_list(text, '/', 2, part) && part[0] >= 1 && part[0] <= part[1] &&
+        part[1] <= PARTS_MOST) {
+        out->part = part[0];
+        out->parts = part[1];
+        return true;
+    }
+    usage_error("--%s takes I/N, as in 3/7, with I from 1 to N and N up to %d, not '%s'", row->name,
+                PARTS_MOST, text);
+    return false;
+}
+
 static bool take_seed(const struct opt_row *row, const char *text, struct options *out)
 {
     return take_between(row, text, 0, UINT64_MAX, &out->seed);
@@ -155,22 +206,6 @@ static bool take_max_memory(const struct opt_row *row, const char *text, struct 
     }
     usage_error("--%s takes a number of bytes, as in 2000000 or 512M, not '%s'", row->name, text);
     return false;
-}
-
-/* `n` whole numbers with a separator between them. */
-static bool read_list(const char *text, char separator, unsigned n, uint32_t *out)
-{
-    for (unsigned i = 0; i < n; i++) {
-        char *end;
-        if (text[0] < '0' || text[0] > '9')
-            return false;
-        unsigned long x = strtoul(text, &end, 10);
-        if (x > UINT32_MAX || *end != (i + 1 < n ? separator : 0))
-            return false;
-        out[i] = (uint32_t)x;
-        text = end + 1;
-    }
-    return true;
 }
 
 static bool take_res(const struct opt_row *row, const char *text, struct options *out)

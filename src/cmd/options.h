@@ -24,7 +24,8 @@ enum {
     FOR_LINT = 256,
     FOR_EXPLAIN = 512,
     FOR_LSP = 1024,
-    FOR_ALL = 2047
+    FOR_MERGE = 2048,
+    FOR_ALL = 4095
 };
 
 /* Those that read a scene, and those that report on what they read. */
@@ -46,10 +47,15 @@ struct options {
     uint32_t width, height;    /* 0: the scene's */
     bool cropped;
     uint32_t crop[4];
-    uint32_t grid;   /* 0: the scene's */
-    double adaptive; /* 0: off */
-    double time;     /* seconds; 0: no limit */
-    uint32_t depth;  /* or DEPTH_OF_SCENE */
+    uint32_t grid;          /* 0: the scene's */
+    double adaptive;        /* 0: off */
+    double time;            /* seconds; 0: no limit */
+    uint32_t bits;          /* a channel; 0: as the format usually has */
+    double exposure;        /* stops */
+    const char *checkpoint; /* or NULL */
+    bool resume;
+    uint32_t part, parts; /* from 1; 0: the whole picture */
+    uint32_t depth;       /* or DEPTH_OF_SCENE */
     uint32_t threads;
     uint64_t seed;
     size_t max_objects;

@@ -134,7 +134,7 @@ void measure_pictures(const struct picture *a, const struct picture *b, unsigned
 
 struct picture *difference_floats(const struct picture *a, const struct picture *b)
 {
-    struct picture *p = picture_new(a->width, a->height, true);
+    struct picture *p = picture_new(a->width, a->height, PICTURE_FLOATS);
     for (size_t i = 0, n = (size_t)3 * a->width * a->height; i < n; i++)
         p->floats[i] = (float)channel_difference(a, b, i);
     return p;
@@ -147,7 +147,7 @@ struct picture *difference_heat(const float *values, uint32_t width, uint32_t he
                                        {129, 37, 129}, {181, 54, 122},  {229, 80, 100},
                                        {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
     enum { STEPS = sizeof stops / sizeof *stops - 1 };
-    struct picture *p = picture_new(width, height, false);
+    struct picture *p = picture_new(width, height, PICTURE_BYTES);
     for (size_t i = 0, n = (size_t)width * height; i < n; i++) {
         double at = (double)values[i] * STEPS;
         int stop = at < STEPS ? (int)at : STEPS - 1;

@@ -99,15 +99,19 @@ static size_t sample_count(uint32_t width, uint32_t height)
     return (size_t)3 * width * height;
 }
 
-struct picture *picture_new(uint32_t width, uint32_t height, bool floats)
+struct picture *picture_new(uint32_t width, uint32_t height, enum picture_depth depth)
 {
     struct picture *p = mem_zalloc(1, sizeof *p);
+    void *channels = mem_zalloc(sample_count(width, height), picture_pixel_bytes(depth) / 3);
     p->width = width;
     p->height = height;
-    if (floats)
-        p->floats = mem_zalloc(sample_count(width, height), sizeof *p->floats);
+    p->gain = 1;
+    if (depth == PICTURE_FLOATS)
+        p->floats = channels;
+    else if (depth == PICTURE_WORDS)
+        p->words = channels;
     else
-        p->bytes = mem_zalloc(sample_count(width, height), sizeof *p->bytes);
+        p->bytes = channels;
     return p;
 }
 
@@ -118,7 +122,28 @@ void picture_free(struct picture *p)
     free(p->bytes);
     free(p->floats);
     free(p->srgb);
+    free(p->words);
     free(p);
+}
+
+enum picture_depth picture_depth_of(const struct picture *p)
+{
+    return p->floats ? PICTURE_FLOATS : p->words ? PICTURE_WORDS : PICTURE_BYTES;
+}
+
+size_t picture_pixel_bytes(enum picture_depth depth)
+{
+    static const size_t bytes[] = {
+        [PICTURE_BYTES] = 3, [PICTURE_FLOATS] = 3 * sizeof(float), [PICTURE_WORDS] = 6};
+    return bytes[depth];
+}
+
+void *picture_pixel(const struct picture *p, uint32_t x, uint32_t y)
+{
+    size_t at = ((size_t)y * p->width + x) * 3;
+    return p->floats  ? (void *)(p->floats + at)
+           : p->words ? (void *)(p->words + at)
+                      : (void *)(p->bytes + at);
 }
 
 struct image *image_new(uint32_t width, uint32_t height, int depth)
@@ -156,7 +181,7 @@ bool image_equal(const struct image *a, const struct image *b)
 void picture_encode_as(struct picture *p, enum picture_encoding encoding)
 {
     p->encoding = encoding;
-    if (encoding != ENCODING_SRGB || p->srgb || p->floats)
+    if (encoding != ENCODING_SRGB || p->srgb || !p->bytes)
         return;
     p->srgb = mem_alloc(1, sizeof *p->srgb);
     srgb_bytes_init(p->srgb);
@@ -167,11 +192,11 @@ double picture_rounding(const struct picture *p)
     return p->encoding == ENCODING_PLAIN ? 0.1 : 0.5;
 }
 
-/* The comparisons are false for NaN. */
-static uint8_t channel_byte(double c, double rounding)
+/* From 0 to `most`.  The comparisons are false for NaN. */
+static uint16_t channel_whole(double c, double most, double rounding)
 {
-    double byte = c < 1 ? c * 255 + rounding : 255;
-    return (uint8_t)(c > 0 ? byte : 0);
+    double whole = c < 1 ? c * most + rounding : most;
+    return (uint16_t)(c > 0 ? whole : 0);
 }
 
 double picture_channel(enum picture_encoding encoding, double c)
@@ -183,19 +208,18 @@ double picture_channel(enum picture_encoding encoding, double c)
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
 {
     size_t at = ((size_t)y * p->width + x) * 3;
-    if (p->floats) {
-        p->floats[at] = (float)colour.x;
-        p->floats[at + 1] = (float)colour.y;
-        p->floats[at + 2] = (float)colour.z;
-    } else if (p->srgb) {
-        p->bytes[at] = srgb_byte(p->srgb, colour.x);
-        p->bytes[at + 1] = srgb_byte(p->srgb, colour.y);
-        p->bytes[at + 2] = srgb_byte(p->srgb, colour.z);
-    } else {
-        double rounding = picture_rounding(p);
-        p->bytes[at] = channel_byte(colour.x, rounding);
-        p->bytes[at + 1] = channel_byte(colour.y, rounding);
-        p->bytes[at + 2] = channel_byte(colour.z, rounding);
+    double channel[3] = {colour.x * p->gain, colour.y * p->gain, colour.z * p->gain};
+    double rounding = picture_rounding(p);
+    for (int i = 0; i < 3; i++) {
+        double c = channel[i];
+        if (p->floats)
+            p->floats[at + i] = (float)c;
+        else if (p->words)
+            p->words[at + i] = channel_whole(picture_channel(p->encoding, c), 65535, 0.5);
+        else if (p->srgb)
+            p->bytes[at + i] = srgb_byte(p->srgb, c);
+        else
+            p->bytes[at + i] = (uint8_t)channel_whole(c, 255, rounding);
     }
 }
 
@@ -254,10 +278,13 @@ bool picture_format_of(const char *path, enum picture_format *format)
 void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
                      char reason[IMAGE_REASON_BYTES])
 {
-    bool wants_floats = format == PICTURE_PFM;
-    if (wants_floats ? !p->floats : !p->bytes) {
-        image_reason(reason, wants_floats ? "PFM wants a picture of floats"
-                                          : "PNG and PPM want a picture of bytes");
+    bool fits = format == PICTURE_PFM   ? p->floats != NULL
+                : format == PICTURE_PPM ? p->bytes != NULL
+                                        : p->floats == NULL;
+    if (!fits) {
+        image_reason(reason, format == PICTURE_PFM   ? "PFM wants a picture of floats"
+                             : format == PICTURE_PPM ? "PPM wants a picture of bytes"
+                                                     : "PNG wants a picture of bytes or words");
         return NULL;
     }
     switch (format) {
@@ -277,7 +304,7 @@ static struct picture *picture_of_image(struct image *i, char reason[IMAGE_REASO
     struct picture *p = NULL;
     if (i->data8) {
         p = mem_zalloc(1, sizeof *p);
-        *p = (struct picture){.width = i->width, .height = i->height, .bytes = i->data8};
+        *p = (struct picture){.width = i->width, .height = i->height, .gain = 1, .bytes = i->data8};
         i->data8 = NULL;
     } else {
         image_reason(reason, "a picture of 16 bits a channel is not read here; one of 8 is");

@@ -11,18 +11,25 @@
 
 /* How the bytes of a picture hold light; floats hold it as it is. */
 enum picture_encoding {
-    ENCODING_PLAIN,  /* classic: floor(clamp(c, 0, 1) 255 + 0.1), as the original program did */
-    ENCODING_SRGB,   /* IEC 61966-2-1, to the nearest byte; PNG files say so */
-    ENCODING_LINEAR, /* to the nearest byte; PNG files say so, by a gamma of 1 */
+    ENCODING_PLAIN,  /* classic: floor(clamp(c, 0, 1) 255 + 0.1), as the original program did; words
+                        to the nearest */
+    ENCODING_SRGB,   /* IEC 61966-2-1, to the nearest byte or word; PNG files say so */
+    ENCODING_LINEAR, /* to the nearest byte or word; PNG files say so, by a gamma of 1 */
 };
 
-/* A picture to write: RGB, 8 bits a channel, or 32-bit floats as they came from the renderer. */
+/* What a channel is kept as: 8 bits, a 32-bit float as it came from the renderer, 16 bits. */
+enum picture_depth { PICTURE_BYTES, PICTURE_FLOATS, PICTURE_WORDS };
+
+/* A picture to write: RGB. */
 struct picture {
     uint32_t width, height;
     enum picture_encoding encoding; /* plain, unless picture_encode_as says otherwise */
-    struct srgb_bytes *srgb;        /* with ENCODING_SRGB */
-    uint8_t *bytes;                 /* 3 width height, or NULL */
-    float *floats;                  /* 3 width height, or NULL */
+    struct srgb_bytes *srgb;        /* with bytes of ENCODING_SRGB */
+    double gain;                    /* of light before it is stored; picture_new makes it 1 */
+    /* 3 width height channels, two of the three being NULL: */
+    uint8_t *bytes;
+    float *floats;
+    uint16_t *words;
 };
 
 /* Largest width, height, and pixel count of a picture or texture. */
@@ -30,19 +37,24 @@ enum { IMAGE_SIDE_LIMIT = 1 << 20, IMAGE_PIXEL_LIMIT = 1 << 28 };
 bool image_size_allowed(uint64_t width, uint64_t height);
 
 /* One with zeroed pixels; the size must be allowed. */
-struct picture *picture_new(uint32_t width, uint32_t height, bool floats);
+struct picture *picture_new(uint32_t width, uint32_t height, enum picture_depth depth);
 void picture_free(struct picture *p);
 
-/* What its bytes hold from now on. */
+enum picture_depth picture_depth_of(const struct picture *p);
+/* Bytes of a pixel in memory, and where one lies. */
+size_t picture_pixel_bytes(enum picture_depth depth);
+void *picture_pixel(const struct picture *p, uint32_t x, uint32_t y);
+
+/* What its bytes or words hold from now on. */
 void picture_encode_as(struct picture *p, enum picture_encoding encoding);
 /* What is added to 255 times a channel before the fraction is cut off; not for sRGB. */
 double picture_rounding(const struct picture *p);
 
-/* What bytes hold of a channel, before they are rounded: from 0 to 1. */
+/* What bytes and words hold of a channel, before they are rounded: from 0 to 1. */
 double picture_channel(enum picture_encoding encoding, double c);
 
-/* Stores a colour; bytes by the encoding, not-a-number gives 0.  Threads may set different pixels
- * at once. */
+/* Stores a colour times the gain; bytes and words by the encoding, not-a-number gives 0.  Threads
+ * may set different pixels at once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
 
 /* Stores n pixels in a row, from (x, y) on: red in the low byte, then green and blue. */
@@ -81,13 +93,14 @@ void image_free(struct image *i);
 bool image_equal(const struct image *a, const struct image *b);
 
 enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM };
+#define PICTURE_SUFFIXES ".png, .ppm and .pfm"
 
 /* By the suffix of path (any case; none means PNG); false when it names no format. */
 bool picture_format_of(const char *path, enum picture_format *format);
 
-/* The whole encoded file, to be freed by the caller; NULL with a reason on failure.  PNG and PPM
- * (P6) want a picture of bytes, PFM one of floats (any other is refused).  Equal pictures give
- * equal bytes on one machine. */
+/* The whole encoded file, to be freed by the caller; NULL with a reason on failure.  PPM
+ * (P6) wants a picture of bytes, PNG one of bytes or words, PFM one of floats (any other is
+ * refused).  Equal pictures give equal bytes on one machine. */
 void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
                      char reason[IMAGE_REASON_BYTES]);
 

@@ -185,18 +185,33 @@ static void flush(png_structp png)
     (void)png;
 }
 
+/* The bytes of a row: words become big-endian, in `room`. */
+static const uint8_t *row_bytes(const struct picture *p, uint32_t y, uint8_t *room)
+{
+    size_t channels = (size_t)3 * p->width;
+    if (p->bytes)
+        return p->bytes + channels * y;
+    for (size_t i = 0; i < channels; i++) {
+        room[2 * i] = (uint8_t)(p->words[channels * y + i] >> 8);
+        room[2 * i + 1] = (uint8_t)p->words[channels * y + i];
+    }
+    return room;
+}
+
 /* The rows with PNG's filter Sub: each byte less that of the pixel to its left. */
 static void filter_rows(const struct picture *p, uint8_t *out)
 {
-    size_t row = (size_t)3 * p->width;
+    size_t pixel = picture_pixel_bytes(picture_depth_of(p)), row = pixel * p->width;
+    uint8_t *room = p->words ? mem_alloc(row, 1) : NULL;
     for (uint32_t y = 0; y < p->height; y++) {
-        const uint8_t *from = p->bytes + row * y;
+        const uint8_t *from = row_bytes(p, y, room);
         *out++ = PNG_FILTER_VALUE_SUB;
-        memcpy(out, from, 3);
-        for (size_t i = 3; i < row; i++)
-            out[i] = (uint8_t)(from[i] - from[i - 3]);
+        memcpy(out, from, pixel);
+        for (size_t i = pixel; i < row; i++)
+            out[i] = (uint8_t)(from[i] - from[i - pixel]);
         out += row;
     }
+    free(room);
 }
 
 /* libdeflate's level 1 takes half the time of zlib's level 1, which libpng would use, and leaves a
@@ -206,7 +221,8 @@ enum { LEVEL = 1 };
 /* The picture's data as a zlib stream of *n bytes, to be freed. */
 static uint8_t *compress(const struct picture *p, size_t *n)
 {
-    size_t filtered_bytes = ((size_t)3 * p->width + 1) * p->height;
+    size_t pixel = picture_pixel_bytes(picture_depth_of(p));
+    size_t filtered_bytes = (pixel * p->width + 1) * p->height;
     uint8_t *filtered = mem_alloc(filtered_bytes, 1);
     struct libdeflate_compressor *c = libdeflate_alloc_compressor(LEVEL);
     if (!c)
@@ -225,8 +241,8 @@ static void encode(struct encoder *e)
     const struct picture *p = e->picture;
     png_set_write_fn(e->png, e, write_bytes, flush);
     png_set_user_limits(e->png, IMAGE_SIDE_LIMIT, IMAGE_SIDE_LIMIT);
-    png_set_IHDR(e->png, e->info, p->width, p->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(e->png, e->info, p->width, p->height, p->words ? 16 : 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (p->encoding == ENCODING_SRGB)
         png_set_sRGB(e->png, e->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else if (p->encoding == ENCODING_LINEAR)

@@ -143,7 +143,7 @@ struct picture *pfm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAG
     size_t row = (size_t)3 * width;
     if (!size_check((size_t)(end - p), row * height * sizeof(float), reason))
         return NULL;
-    struct picture *out = picture_new(width, height, true);
+    struct picture *out = picture_new(width, height, PICTURE_FLOATS);
     for (uint32_t y = height; y-- > 0;)
         for (size_t i = 0; i < row; i++, p += sizeof(float))
             out->floats[y * row + i] = get_float(p, scale < 0);

@@ -11,7 +11,7 @@ enum { PROBE = 16 }; /* pixels across and down */
 static bool is_black(const struct lint *l, uint32_t grid)
 {
     const struct scene *s = &l->lowered->scene;
-    struct picture *p = picture_new(PROBE, PROBE, false);
+    struct picture *p = picture_new(PROBE, PROBE, PICTURE_BYTES);
     struct render_stats stats;
     struct render_options o = {.width = PROBE,
                                .height = PROBE,

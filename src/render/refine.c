@@ -45,11 +45,12 @@ void refiner_free(struct refiner *r)
  * which more of them would not change. */
 static double stored_channel(const struct frame *f, double mean, double variance)
 {
-    double error = variance > 0 ? sqrt(variance) : 0;
+    double gain = f->out->gain, error = variance > 0 ? gain * sqrt(variance) : 0;
     if (f->out->floats)
         return error;
     enum picture_encoding e = f->encoding;
-    return 0.5 * (picture_channel(e, mean + error) - picture_channel(e, mean - error));
+    return 0.5 *
+           (picture_channel(e, gain * mean + error) - picture_channel(e, gain * mean - error));
 }
 
 struct vec3 stored_errors(const struct frame *f, const struct estimate *e)
@@ -85,7 +86,7 @@ static void set_pixel(struct frame *f, uint32_t x, uint32_t y, struct vec3 mean,
 {
     bool counts = f->tracer->options->show == SHOW_SAMPLES;
     picture_set(f->out, x - f->crop.x0, y - f->crop.y0,
-                counts ? heat(samples, f->out->bytes != NULL) : mean);
+                counts ? heat(samples, !f->out->floats) : mean);
 }
 
 /* ---- one pixel ------------------------------------------------------------------------------- */

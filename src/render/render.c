@@ -77,7 +77,7 @@ static void store_tile(struct rendering *r, const struct tile *tile,
     struct picture *out = r->out;
     uint32_t width = tile->x1 - tile->x0, x = tile->x0 - r->tiling.whole.x0, n = 0;
     uint32_t pixels[BATCH_ROOM];
-    bool packed = out->bytes && !out->srgb;
+    bool packed = out->bytes && !out->srgb && out->gain == 1;
     if (packed)
         r->tracer.kernels->pack(colours, width * (tile->y1 - tile->y0), picture_rounding(out),
                                 pixels);
@@ -104,7 +104,7 @@ static void render_tile(void *context, size_t item, unsigned worker)
         struct sample sample = sample_at(&r->tracer, 0, 0, 1);
         const struct ray_batch *rays = camera_rays(w, &tile, &sample);
         w->stats.primary += rays->n;
-        show_batch(w, rays, r->range, r->out->bytes != NULL, &w->sums);
+        show_batch(w, rays, r->range, !r->out->floats, &w->sums);
     }
     store_tile(r, &tile, &w->sums);
     render_tell_finished(r->tracer.options, number);
@@ -213,7 +213,7 @@ struct rendering *rendering_begin(const struct scene *scene, const struct render
     r->workers = mem_alloc(options->threads, sizeof *r->workers);
     for (unsigned i = 0; i < options->threads; i++)
         r->workers[i] = camera_worker(&r->tracer);
-    if (options->show == SHOW_DEPTH && out->bytes)
+    if (options->show == SHOW_DEPTH && !out->floats)
         find_range(r);
     for (unsigned i = 0; i < options->threads; i++)
         r->workers[i]->stats = (struct render_stats){0};

@@ -319,7 +319,7 @@ static bool write_files(void)
     static const char uvs[] = "0 0\n1 0\n0 1\n1 0\n1 1\n0 1\n";
     char why[IMAGE_REASON_BYTES];
     size_t n;
-    struct picture *p = picture_new(2, 2, false);
+    struct picture *p = picture_new(2, 2, PICTURE_BYTES);
     picture_set(p, 1, 1, vec3(1, 0.5, 0));
     void *png = picture_encode(p, PICTURE_PNG, &n, why);
     bool written = png && !file_write("t.png", png, n) &&

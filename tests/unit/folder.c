@@ -27,7 +27,7 @@ void folder_leave(const struct folder *f, const char *const *names, int n)
 
 void folder_add_picture(const char *name)
 {
-    struct picture *p = picture_new(2, 3, false);
+    struct picture *p = picture_new(2, 3, PICTURE_BYTES);
     for (uint32_t i = 0; i < 6; i++)
         picture_set(p, i % 2, i / 2, vec3(1, i < 3, 0));
     char why[IMAGE_REASON_BYTES];

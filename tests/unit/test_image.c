@@ -491,7 +491,7 @@ static const struct {
 
 START_TEST(colour_is_rounded)
 {
-    struct picture *p = picture_new(2, 2, false);
+    struct picture *p = picture_new(2, 2, PICTURE_BYTES);
     picture_set(p, 1, 0, vec3(roundings[_i].channel, 1, 0.5));
     ck_assert_uint_eq(p->bytes[3], roundings[_i].byte);
     ck_assert_uint_eq(p->bytes[4], 255);
@@ -576,7 +576,7 @@ END_TEST
 
 static struct picture *noise_picture(uint32_t width, uint32_t height, bool floats)
 {
-    struct picture *p = picture_new(width, height, floats);
+    struct picture *p = picture_new(width, height, floats ? PICTURE_FLOATS : PICTURE_BYTES);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             picture_set(p, x, y, vec3((x * 31 + y * 17) % 256 / 255.0, x % 7 / 7.0, y % 5 / 5.0));
@@ -622,7 +622,7 @@ START_TEST(pfm_is_little_endian_bottom_up)
     static const char wanted[] = "PF\n1 2\n-1.0\n"
                                  "\0\0\x80\x3f\0\0\0\xc0\0\0\0\0"      /* bottom: 1 -2 0 */
                                  "\0\0\x80\x7f\0\0\0\x3f\0\0\x80\x3e"; /* top: inf 0.5 0.25 */
-    struct picture *p = picture_new(1, 2, true);
+    struct picture *p = picture_new(1, 2, PICTURE_FLOATS);
     char reason[IMAGE_REASON_BYTES];
     size_t n;
     picture_set(p, 0, 0, vec3(INFINITY, 0.5, 0.25));
@@ -634,7 +634,7 @@ START_TEST(pfm_is_little_endian_bottom_up)
     ck_assert_ptr_null(picture_encode(p, PICTURE_PPM, &n, reason));
     free(file);
     picture_free(p);
-    p = picture_new(1, 1, false);
+    p = picture_new(1, 1, PICTURE_BYTES);
     ck_assert_ptr_null(picture_encode(p, PICTURE_PFM, &n, reason));
     ck_assert_str_eq(reason, "PFM wants a picture of floats");
     picture_free(p);
@@ -720,7 +720,7 @@ END_TEST
 
 START_TEST(pfm_survives_round_trip)
 {
-    struct picture *p = picture_new(3, 2, true);
+    struct picture *p = picture_new(3, 2, PICTURE_FLOATS);
     char reason[IMAGE_REASON_BYTES];
     size_t n;
     for (size_t i = 0; i < 18; i++)

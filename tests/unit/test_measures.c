@@ -19,7 +19,7 @@ enum { WIDTH = 71, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };
 static struct picture *plain_picture(uint32_t width, uint32_t height, uint8_t r, uint8_t g,
                                      uint8_t b)
 {
-    struct picture *p = picture_new(width, height, false);
+    struct picture *p = picture_new(width, height, PICTURE_BYTES);
     for (size_t i = 0; i < (size_t)width * height; i++) {
         p->bytes[3 * i] = r;
         p->bytes[3 * i + 1] = g;
@@ -31,7 +31,7 @@ static struct picture *plain_picture(uint32_t width, uint32_t height, uint8_t r,
 /* Patches of colour with noise on them. */
 static struct picture *random_picture(uint64_t seed)
 {
-    struct picture *p = picture_new(WIDTH, HEIGHT, false);
+    struct picture *p = picture_new(WIDTH, HEIGHT, PICTURE_BYTES);
     for (size_t i = 0; i < 3 * PIXELS; i++) {
         size_t x = i / 3 % WIDTH, y = i / 3 / WIDTH;
         double patch = rng_uniform(seed, x / 12 + 100 * (y / 9), i % 3, 0);
@@ -309,8 +309,8 @@ START_TEST(flip_of_floats)
 {
     struct picture *p = random_picture(5), *q = random_picture(6), *pf, *qf;
     float bytes[PIXELS], floats[PIXELS];
-    pf = picture_new(WIDTH, HEIGHT, true);
-    qf = picture_new(WIDTH, HEIGHT, true);
+    pf = picture_new(WIDTH, HEIGHT, PICTURE_FLOATS);
+    qf = picture_new(WIDTH, HEIGHT, PICTURE_FLOATS);
     p->bytes[0] = 0;
     q->bytes[0] = 255;
     for (size_t i = 0; i < 3 * PIXELS; i++) {
@@ -362,7 +362,7 @@ END_TEST
 /* A step of one byte is not above 1/255, whichever; one of two is. */
 START_TEST(steps_of_bytes)
 {
-    struct picture *a = picture_new(253, 1, false), *b = picture_new(253, 1, false);
+    struct picture *a = picture_new(253, 1, PICTURE_BYTES), *b = picture_new(253, 1, PICTURE_BYTES);
     struct measures m;
     float map[253];
     for (uint8_t i = 0; i < 253; i++) {
@@ -392,7 +392,7 @@ static const struct {
 START_TEST(percentile_leaves_out_one_in_a_thousand)
 {
     uint32_t n = percentiles[_i].pixels;
-    struct picture *a = picture_new(n, 1, true), *b = picture_new(n, 1, true);
+    struct picture *a = picture_new(n, 1, PICTURE_FLOATS), *b = picture_new(n, 1, PICTURE_FLOATS);
     float near = nextafterf(0.25F, 1);
     for (uint32_t i = 0; i < n; i++)
         b->floats[3 * i + i % 3] = i < percentiles[_i].far ? -0.5F : i % 2 ? 0.25F : near;
@@ -412,7 +412,7 @@ START_TEST(floats_that_are_no_numbers)
                        right[] = {NAN, INFINITY, -INFINITY, 1, 1, INFINITY, 0};
     static const bool differs[] = {false, false, false, true, true, true, false};
     for (int i = 0; i < 7; i++) {
-        struct picture *a = picture_new(1, 1, true), *b = picture_new(1, 1, true);
+        struct picture *a = picture_new(1, 1, PICTURE_FLOATS), *b = picture_new(1, 1, PICTURE_FLOATS);
         struct measures m;
         float map;
         a->floats[1] = left[i];

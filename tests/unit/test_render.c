@@ -222,7 +222,8 @@ static struct render_options whole_picture(const struct scene *s)
 static struct picture *render(const struct scene *s, const struct render_options *o)
 {
     struct render_stats stats;
-    struct picture *p = picture_new(o->crop.x1 - o->crop.x0, o->crop.y1 - o->crop.y0, true);
+    struct picture *p =
+        picture_new(o->crop.x1 - o->crop.x0, o->crop.y1 - o->crop.y0, PICTURE_FLOATS);
     render_scene(s, o, p, &stats);
     ck_assert_uint_ge(stats.primary, (uint64_t)p->width * p->height);
     return p;
@@ -279,7 +280,7 @@ START_TEST(skipping_skips)
     make_scene(&s, 1, _i);
     struct render_options o = whole_picture(&s);
     struct render_stats with, without;
-    struct picture *p = picture_new(o.width, o.height, false);
+    struct picture *p = picture_new(o.width, o.height, PICTURE_BYTES);
     render_scene(&s, &o, p, &with);
     o.no_skip = true;
     render_scene(&s, &o, p, &without);
@@ -306,10 +307,10 @@ START_TEST(a_crop_is_part_of_the_whole)
     o.grid = _i < 4 ? 1 : 2;
     o.jitter = _i >= 4;
     struct render_stats stats;
-    struct picture *whole = picture_new(o.width, o.height, false);
+    struct picture *whole = picture_new(o.width, o.height, PICTURE_BYTES);
     render_scene(&s, &o, whole, &stats);
     o.crop.x0 = 13, o.crop.y0 = 7, o.crop.x1 = 40, o.crop.y1 = 29;
-    struct picture *part = picture_new(27, 22, false);
+    struct picture *part = picture_new(27, 22, PICTURE_BYTES);
     render_scene(&s, &o, part, &stats);
     for (uint32_t y = 0; y < 22; y++)
         ck_assert(memcmp(part->bytes + (size_t)3 * 27 * y,
@@ -382,7 +383,7 @@ static struct picture *render_adaptive_part(const struct scene *s, double error,
     o.grid = cells;
     o.depth = 2;
     o.crop.x0 = 20, o.crop.y0 = 14, o.crop.x1 = 36, o.crop.y1 = 26;
-    struct picture *p = picture_new(16, 12, true);
+    struct picture *p = picture_new(16, 12, PICTURE_FLOATS);
     render_scene(s, &o, p, stats);
     return p;
 }
@@ -435,7 +436,7 @@ START_TEST(deep_reflections_end)
     struct render_options o = whole_picture(&s);
     o.depth = 1000;
     struct render_stats stats;
-    struct picture *p = picture_new(o.width, o.height, false);
+    struct picture *p = picture_new(o.width, o.height, PICTURE_BYTES);
     render_scene(&s, &o, p, &stats);
     ck_assert_uint_eq(stats.reflection, 256 * 1000);
     picture_free(p);
@@ -455,7 +456,7 @@ START_TEST(empty_scenes_are_black)
     struct render_options o = whole_picture(&s);
     o.show = shows[_i];
     struct render_stats stats;
-    struct picture *p = picture_new(o.width, o.height, false);
+    struct picture *p = picture_new(o.width, o.height, PICTURE_BYTES);
     render_scene(&s, &o, p, &stats);
     for (int i = 0; i < 600; i++)
         ck_assert_uint_eq(p->bytes[i], 0);

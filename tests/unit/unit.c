@@ -20,6 +20,7 @@ int main(void)
     srunner_add_suite(runner, export_suite());
     srunner_add_suite(runner, image_suite());
     srunner_add_suite(runner, measures_suite());
+    srunner_add_suite(runner, farm_suite());
     srunner_add_suite(runner, formats_suite());
     srunner_add_suite(runner, mesh_suite());
     srunner_add_suite(runner, bvh_suite());

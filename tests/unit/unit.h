@@ -9,6 +9,7 @@ Suite *bvh_suite(void);
 Suite *cubature_suite(void);
 Suite *diag_suite(void);
 Suite *eval_suite(void);
+Suite *farm_suite(void);
 Suite *formats_suite(void);
 Suite *export_suite(void);
 Suite *geometry_suite(void);

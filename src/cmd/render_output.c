@@ -1,0 +1,236 @@
+/* The files of a render: the picture or part, the picture so far, the journal. */
+#include "config.h"
+
+#include "cmd/interrupt.h"
+#include "cmd/render_run.h"
+
+#include "base/file.h"
+#include "base/thread.h"
+#include "farm/parts.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* The bits a channel that a file of this format may have; the first is meant without --bits. */
+static const struct {
+    const char *name;
+    uint32_t bits[2];
+} formats[] = {
+    [PICTURE_PNG] = {"PNG", {8, 16}},
+    [PICTURE_PPM] = {"PPM", {8, 8}},
+    [PICTURE_PFM] = {"PFM", {32, 32}},
+};
+
+int render_choose_format(struct render_run *r)
+{
+    const struct options *o = r->options;
+    if (strcmp(r->output, "-") == 0 && (o->stats == STATS_JSON || o->format == DIAG_FORMAT_JSON))
+        return usage_error("the picture and JSON cannot both go to standard output");
+    r->bits = o->bits;
+    if (o->parts > 0) {
+        r->bits = o->bits ? o->bits : 8;
+        return 0;
+    }
+    if (!picture_format_of(r->output, &r->format))
+        return usage_error("'%s' names no picture format; " PICTURE_SUFFIXES " are written",
+                           r->output);
+    const uint32_t *may = formats[r->format].bits;
+    r->bits = o->bits ? o->bits : may[0];
+    if (r->bits == may[0] || r->bits == may[1])
+        return 0;
+    if (may[0] == may[1])
+        return usage_error("--bits: %s has %u bits a channel, not %u", formats[r->format].name,
+                           may[0], r->bits);
+    return usage_error("--bits: %s has %u or %u bits a channel, not %u", formats[r->format].name,
+                       may[0], may[1], r->bits);
+}
+
+enum picture_depth render_depth(const struct render_run *r)
+{
+    return r->bits == 8 ? PICTURE_BYTES : r->bits == 16 ? PICTURE_WORDS : PICTURE_FLOATS;
+}
+
+/* Reports what is wrong with a file in place of what was reported before; returns the exit status.
+ */
+static int report_file(struct render_run *r, enum diag_code code, const char *what,
+                       const char *path, const char *reason)
+{
+    diag_free(&r->frontend.diag);
+    diag_init(&r->frontend.diag, &r->frontend.sources);
+    diag_report(&r->frontend.diag, code, (struct span){0}, "%s '%s': %s", what, path, reason);
+    return frontend_report(&r->frontend, r->options, DIAG_WARNING);
+}
+
+static int report_output(struct render_run *r, const char *path, const char *reason)
+{
+    return report_file(r, DIAG_CANNOT_WRITE, "could not write", path, reason);
+}
+
+/* A long render should not end with "no such directory". */
+static const char *output_obstacle(const char *path)
+{
+    struct stat st;
+    if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
+        return strerror(EISDIR);
+    const char *slash = strrchr(path, '/');
+    size_t n = slash ? (size_t)(slash - path) : 0;
+    if (!slash || n == 0)
+        return NULL;
+    char *folder = mem_alloc(n + 1, 1);
+    memcpy(folder, path, n);
+    folder[n] = 0;
+    const char *reason = stat(folder, &st) != 0 ? strerror(errno)
+                         : S_ISDIR(st.st_mode)  ? NULL
+                                                : strerror(ENOTDIR);
+    free(folder);
+    return reason;
+}
+
+int render_check_output(struct render_run *r)
+{
+    const char *obstacle = output_obstacle(r->output);
+    return obstacle ? report_output(r, r->output, obstacle) : 0;
+}
+
+/* ---- the journal, and what it leaves to be done ---- */
+
+int render_open_journal(struct render_run *r)
+{
+    const struct options *o = r->options;
+    struct buffer why = {0};
+    struct tilefile_head head = r->head;
+    head.part = head.parts = 0;
+    if (!o->checkpoint)
+        return 0;
+    int status = 0;
+    switch (journal_open(o->checkpoint, o->resume, &head, r->picture, &r->journal, &why)) {
+    case JOURNAL_OPEN:
+        break;
+    case JOURNAL_EXISTS:
+        status = usage_error("--checkpoint: there is a '%s' already; --resume goes on with it",
+                             o->checkpoint);
+        break;
+    case JOURNAL_UNUSABLE:
+        status = report_file(r, DIAG_OTHER_TILES, "cannot resume from", o->checkpoint, why.at);
+        break;
+    case JOURNAL_FAILED:
+        status = report_output(r, o->checkpoint, why.at);
+        break;
+    }
+    buffer_free(&why);
+    return status;
+}
+
+/* Leaves those out that the journal has. */
+static void drop_saved(struct render_run *r)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < r->tile_count; i++)
+        if (!journal_has(r->journal, r->tiles[i]))
+            r->tiles[n++] = r->tiles[i];
+    r->tile_count = n;
+}
+
+void render_choose_tiles(struct render_run *r)
+{
+    uint32_t part = r->options->part, parts = r->options->parts;
+    if (parts > 0 || r->journal)
+        r->tiles = part_tiles(&r->tiling, parts ? part : 1, parts ? parts : 1, &r->tile_count);
+    if (r->journal)
+        drop_saved(r);
+}
+
+/* ---- results ---- */
+
+static const char *write_picture(struct render_run *r, const char *path, char why[])
+{
+    size_t n;
+    void *bytes = picture_encode(r->picture, r->format, &n, why);
+    const char *reason = bytes ? file_write(path, bytes, n) : why;
+    free(bytes);
+    return reason;
+}
+
+/* Tile after tile, so that a part's bytes do not depend on how it came about. */
+static const char *write_part(struct render_run *r)
+{
+    struct buffer b = {0};
+    size_t n;
+    size_t *tiles = part_tiles(&r->tiling, r->head.part, r->head.parts, &n);
+    uint64_t check = tilefile_put_head(&b, &r->head);
+    for (size_t i = 0, run; i < n; i += run) {
+        run = 1;
+        while (i + run < n && tiles[i + run] == tiles[i] + run)
+            run++;
+        tilefile_put_tiles(&b, check, &r->tiling, r->picture, tiles[i], run);
+    }
+    tilefile_put_end(&b, check, n);
+    const char *reason = file_write(r->output, b.at, b.n);
+    free(tiles);
+    buffer_free(&b);
+    return reason;
+}
+
+int render_finish(struct render_run *r)
+{
+    double start = thread_seconds();
+    char why[IMAGE_REASON_BYTES];
+    const char *reason = r->head.parts > 0 ? write_part(r) : write_picture(r, r->output, why);
+    r->stats.write_s += thread_seconds() - start;
+    int status = reason ? report_output(r, r->output, reason) : 0;
+    if (r->journal) {
+        reason = journal_close(r->journal, status == 0);
+        r->journal = NULL;
+        if (reason)
+            status = report_output(r, r->options->checkpoint, reason);
+    }
+    return status;
+}
+
+/* dir/name.png becomes dir/name.partial.png; for the caller to free. */
+static char *partial_name(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t stem = dot ? (size_t)(dot - path) : strlen(path);
+    struct buffer b = {0};
+    buffer_add(&b, path, stem);
+    buffer_puts(&b, ".partial");
+    buffer_add(&b, path + stem, strlen(path + stem) + 1);
+    return b.at;
+}
+
+/* Whether there is a place beside the output. */
+static bool output_is_regular(const char *path)
+{
+    struct stat st;
+    return strcmp(path, "-") != 0 && (stat(path, &st) != 0 || S_ISREG(st.st_mode));
+}
+
+int render_save(struct render_run *r)
+{
+    int number = interrupt_flag;
+    size_t have = atomic_load(&r->finished), all = r->tiling.n;
+    const char *reason = r->journal ? journal_close(r->journal, false) : NULL;
+    bool saved = r->journal && !reason;
+    r->journal = NULL;
+    if (reason)
+        report_output(r, r->options->checkpoint, reason);
+    fprintf(stderr, "wrt: ended by signal %d with %.1f %% of the picture", number,
+            100.0 * (double)have / (double)all);
+    if (r->head.parts == 0 && output_is_regular(r->output)) {
+        char why[IMAGE_REASON_BYTES], *path = partial_name(r->output);
+        reason = write_picture(r, path, why);
+        if (reason)
+            fprintf(stderr, "; could not write '%s': %s", path, reason);
+        else
+            fprintf(stderr, ", which is in '%s'", path);
+        free(path);
+    }
+    if (saved)
+        fprintf(stderr, "; --checkpoint '%s' --resume goes on", r->options->checkpoint);
+    fputs("\n", stderr);
+    return 128 + number;
+}

@@ -1,0 +1,58 @@
+/* What the parts of `wrt render` share: one picture from its scene to its file. */
+#ifndef WRT_CMD_RENDER_RUN_H
+#define WRT_CMD_RENDER_RUN_H
+
+#include "cmd/frontend.h"
+#include "cmd/progress.h"
+#include "cmd/stats.h"
+#include "farm/journal.h"
+
+#include <stdatomic.h>
+
+struct render_run {
+    const struct options *options;
+    struct frontend frontend;
+    struct lowered lowered;
+    const char *output; /* path of the picture, or of a part */
+    enum picture_format format;
+    uint32_t bits; /* a channel of the file */
+    struct render_options render;
+    struct tilefile_head head; /* what the picture is of */
+    struct tiling tiling;      /* of the crop */
+    size_t *tiles;             /* that are to be rendered; NULL: all */
+    size_t tile_count;
+    struct picture *picture;
+    struct journal *journal; /* or NULL */
+    atomic_size_t finished;  /* tiles in the picture */
+    size_t expected;         /* that are in it once all is done */
+    struct run_stats stats;
+    struct progress progress;
+    double started; /* of thread_seconds() */
+};
+
+/* ---- render_settings.c: what is rendered ---- */
+
+/* Size, crop and sampling of the picture by the scene and the options; 0 or an exit status. */
+int render_choose(struct render_run *r);
+/* Fills the head with what the choice comes to. */
+void render_fill_head(struct render_run *r);
+
+/* ---- render_output.c: files ---- */
+
+/* What a channel of the picture is kept as. */
+enum picture_depth render_depth(const struct render_run *r);
+/* The picture's format; told before any work is done.  0 or an exit status. */
+int render_choose_format(struct render_run *r);
+/* Whether the output's folder is there; 0 or an exit status. */
+int render_check_output(struct render_run *r);
+/* Opens the journal that was asked for; its tiles are in the picture then.  0 or an exit status. */
+int render_open_journal(struct render_run *r);
+/* The tiles that are left to be rendered. */
+void render_choose_tiles(struct render_run *r);
+/* Writes the picture or part, and removes the journal; 0 or an exit status. */
+int render_finish(struct render_run *r);
+/* After a signal: saves the journal, writes the picture so far beside the output, says so; returns
+ * the exit status. */
+int render_save(struct render_run *r);
+
+#endif
