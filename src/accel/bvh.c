@@ -228,15 +228,27 @@ static void find_boxes(void *context, size_t item, unsigned worker)
     }
 }
 
+/* How many are left. */
+static uint32_t leave_out(uint32_t *order, uint32_t n, const bool *spare)
+{
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < n; i++)
+        if (!spare[order[i]])
+            order[left++] = order[i];
+    return left;
+}
+
 /* Only those are ever walked that some instance takes whole. */
 static struct accel *build_prototypes(const struct geometry *g, const struct accel_options *options)
 {
     struct accel *a = g->prototypes.n ? mem_zalloc(g->prototypes.n, sizeof *a) : NULL;
+    struct accel_options own = *options;
+    own.spare = NULL;
     for (size_t i = 0; i < g->instances.n; i++) {
         const struct instance *instance = &g->instances.at[i];
         struct accel *prototype = &a[instance->prototype];
         if (instance->only == PRIM_NONE && !prototype->geometry)
-            accel_build_with(prototype, &g->prototypes.at[instance->prototype]->shapes, options);
+            accel_build_with(prototype, &g->prototypes.at[instance->prototype]->shapes, &own);
     }
     return a;
 }
@@ -251,6 +263,8 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
                         .order = mem_alloc(n, sizeof *w.order),
                         .wide = options->isa != ISA_PLAIN};
     thread_share((n + SHARED_LEAST - 1) / SHARED_LEAST, options->threads, find_boxes, &w);
+    if (options->spare)
+        n = leave_out(w.order, n, options->spare);
     struct box all = run_box(&w, 0, n);
     if (!options->brute_force && n >= TREE_LEAST)
         build_nodes(&w, n, options->threads);

@@ -34,6 +34,7 @@ struct accel_options {
     bool brute_force; /* no tree: every primitive is tried */
     enum isa isa;
     unsigned threads; /* >= 1 */
+    const bool *spare; /* primitives that are left out, or NULL: none */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */

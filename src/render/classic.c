@@ -5,9 +5,11 @@
 
 static struct box classic_begin(struct worker *w)
 {
-    vec3_fill(&w->light.direct, 0, w->points.n, vec3_all(0));
-    vec3_fill(&w->light.intensity, 0, w->points.n, vec3_all(0));
-    return w->tracer->kernels->bounds(&w->points.p, w->points.n);
+    const struct render_kernels *kernels = w->tracer->kernels;
+    kernels->fill(&w->light.direct, 0, w->points.n, vec3_all(0));
+    if (w->points.any_bounces)
+        kernels->fill(&w->light.intensity, 0, w->points.n, vec3_all(0));
+    return kernels->bounds(&w->points.p, w->points.n);
 }
 
 static void classic_add(struct worker *w, size_t k, struct box box)

@@ -17,6 +17,13 @@ static void aim(const struct lens *lens, const double *x, const double *y, uint3
     }
 }
 
+static void fill_vectors(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value)
+{
+    struct vvec3 all = v3_all(value);
+    for (uint32_t i = first; i < end; i += LANES)
+        v3_store(to, i, all);
+}
+
 /* ---- points on primitives -------------------------------------------------------------------- */
 
 static void sphere_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
@@ -438,6 +445,7 @@ static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, 
 
 const struct render_kernels RENDER_KERNELS = {
     .aim = aim,
+    .fill = fill_vectors,
     .hit_points = hit_points,
     .weights = weights,
     .texels = texels,

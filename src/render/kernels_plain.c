@@ -112,7 +112,8 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
     for (uint32_t i = 0; i < points->n; i++) {
         struct shade_point s = shade_point_get(points, i);
         struct vec3 intensity = intensity_at(light, s.p), direct = s.diffuse;
-        vec3_put(&sums->intensity, i, vec3_add(vec3_get(&sums->intensity, i), intensity));
+        if (points->any_bounces)
+            vec3_put(&sums->intensity, i, vec3_add(vec3_get(&sums->intensity, i), intensity));
         if (shares[i] == 0)
             continue;
         if (!s.finish->glows) {
@@ -171,6 +172,7 @@ static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaq
 
 const struct render_kernels render_plain = {
     .aim = aim,
+    .fill = vec3_fill,
     .hit_points = hit_points,
     .weights = weights,
     .texels = texels,

@@ -21,7 +21,7 @@ static bool hits_crossed_surface(const struct tracer *t, struct ray ray, uint32_
 }
 
 /* So few targets are not worth finding out which of them the rays of a tile can hit. */
-enum { FEW_TARGETS = 4 };
+enum { FEW_TARGETS = 8 };
 
 /* What the rays can hit at all, nearest first; found from what is known of camera rays, if
  * anything, or put into `room`. */
@@ -72,28 +72,30 @@ static bool interpolates(const struct surface *surface)
 }
 
 /* The primitive of points first to end. */
-static void gather_shape(struct hit_shapes *shapes, const struct scene *scene, uint32_t first,
+static void gather_shape(struct hit_shapes *shapes, const struct tracer *t, uint32_t first,
                          uint32_t end, struct prim prim)
 {
+    const struct scene *scene = t->scene;
     const struct geometry *g = &scene->geometry;
+    const struct render_kernels *kernels = t->kernels;
     if (prim.kind == PRIM_SPHERE) {
         const struct sphere *s = &g->spheres.at[prim.index];
-        vec3_fill(&shapes->at, first, end, s->center);
+        kernels->fill(&shapes->at, first, end, s->center);
         fill(shapes->radius, first, end, s->radius);
     } else if (prim.kind == PRIM_CYLINDER) {
         const struct cylinder *c = &g->cylinders.at[prim.index];
-        vec3_fill(&shapes->at, first, end, c->base);
-        vec3_fill(&shapes->along, first, end, c->axis);
+        kernels->fill(&shapes->at, first, end, c->base);
+        kernels->fill(&shapes->along, first, end, c->axis);
         fill(shapes->radius, first, end, c->radius);
         fill(shapes->height, first, end, c->height);
     } else if (prim.kind == PRIM_TRIANGLE) {
-        const struct triangle *t = &g->triangles.at[prim.index];
-        vec3_fill(&shapes->at, first, end, g->vertices.at[t->vertex[0]]);
-        vec3_fill(&shapes->along, first, end, t->normal);
+        const struct triangle *tri = &g->triangles.at[prim.index];
+        kernels->fill(&shapes->at, first, end, g->vertices.at[tri->vertex[0]]);
+        kernels->fill(&shapes->along, first, end, tri->normal);
         if (!interpolates(&scene->surfaces.at[prim.surface]))
             return;
-        vec3_fill(&shapes->second, first, end, g->vertices.at[t->vertex[1]]);
-        vec3_fill(&shapes->third, first, end, g->vertices.at[t->vertex[2]]);
+        kernels->fill(&shapes->second, first, end, g->vertices.at[tri->vertex[1]]);
+        kernels->fill(&shapes->third, first, end, g->vertices.at[tri->vertex[2]]);
         shapes->weighted = true;
     }
 }
@@ -111,7 +113,7 @@ static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_
     vec3_put(&points->incoming, k, vec3_get(&rays->direction, i));
     vec3_put(&shapes->origins, k, vec3_get(&rays->origin, i));
     shapes->part[k] = w->hits.part[i];
-    gather_shape(shapes, w->tracer->scene, k, k + 1, prim);
+    gather_shape(shapes, w->tracer, k, k + 1, prim);
 }
 
 /* Puts the hits in the order of their primitives' kinds. */
@@ -156,7 +158,7 @@ static void gather_same(struct worker *w, const struct ray_batch *rays)
     shapes->origin = &rays->origin;
     memcpy(points->t, w->hits.t, n * sizeof *points->t);
     memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
-    gather_shape(shapes, w->tracer->scene, 0, n, prim);
+    gather_shape(shapes, w->tracer, 0, n, prim);
     for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
         shapes->first[kind] = kind <= prim.kind ? 0 : n;
 }
@@ -420,8 +422,8 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
         points->finish[k] = finish;
     for (uint32_t k = first; k < end; k++)
         points->power[k] = finish->power;
-    vec3_fill(&points->diffuse, first, end, diffuse);
-    vec3_fill(&points->specular, first, end, finish->specular);
+    t->kernels->fill(&points->diffuse, first, end, diffuse);
+    t->kernels->fill(&points->specular, first, end, finish->specular);
     points->any_uneven |= finish->uneven;
     points->any_glowing |= finish->glows;
     points->any_bounces |= finish->bounces;
@@ -478,7 +480,8 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     bundle_closest(&t->accel, t->bundles, rays, list, &w->hits);
     uint64_t inside = meet_crossed_surfaces(w, rays, paths);
     gather_points(w, rays);
-    for (uint32_t k = 0; k < points->n; k++)
+    memset(points->inside, 0, sizeof points->inside);
+    for (uint32_t k = 0; k < points->n && inside; k++)
         points->inside[k] = inside >> points->ray[k] & 1;
     t->kernels->hit_points(&t->scene->geometry, &w->shapes, points);
     settle_points(w);

@@ -149,6 +149,17 @@ static struct lens lens_for(const struct camera *c, const struct render_options 
     return o->whole_view ? lens_of(c, c->width, c->height) : lens_of(c, o->width, o->height);
 }
 
+static void build_accel(struct tracer *t)
+{
+    const struct render_options *o = t->options;
+    struct accel_options build = {o->brute_force, o->isa, o->threads, NULL};
+    bool *twins = t->skips ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
+    if (twins && find_twins(t, twins) > 0)
+        build.spare = twins;
+    accel_build_with(&t->accel, &t->scene->geometry, &build);
+    free(twins);
+}
+
 void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options)
 {
     *t = (struct tracer){.scene = scene,
@@ -160,8 +171,6 @@ void tracer_init(struct tracer *t, const struct scene *scene, const struct rende
     t->kernels = render_kernels_of(t->skips ? options->isa : ISA_PLAIN);
     t->modern = scene->model == SCENE_MODERN;
     t->shading = t->modern ? &shading_modern : &shading_classic;
-    struct accel_options build = {options->brute_force, options->isa, options->threads};
-    accel_build_with(&t->accel, &scene->geometry, &build);
     for (size_t i = 0; i < scene->lights.n; i++)
         lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force, t->skips);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
@@ -173,6 +182,7 @@ void tracer_init(struct tracer *t, const struct scene *scene, const struct rende
         t->emissive[i] = m->kind == MATERIAL_EMISSIVE;
         t->any_emissive |= t->emissive[i];
     }
+    build_accel(t);
 }
 
 void tracer_free(struct tracer *t)

@@ -196,6 +196,8 @@ struct render_kernels {
      * ones. */
     void (*aim)(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions);
+    /* As vec3_fill, but elements up to the next whole vector may be filled, too. */
+    void (*fill)(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value);
     /* Fills in p and normal of the points, whose incoming is known. */
     void (*hit_points)(const struct geometry *g, const struct hit_shapes *shapes,
                        struct shade_batch *points);
@@ -327,6 +329,9 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
                  const struct path *paths, struct vec3_batch *colours);
 struct worker *worker_new(const struct tracer *tracer);
 void worker_free(struct worker *w);
+
+/* twins.c: notes primitives that lie exactly where an earlier one does, and returns how many. */
+uint32_t find_twins(const struct tracer *t, bool *twins);
 
 /* render.c */
 void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options);
