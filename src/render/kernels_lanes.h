@@ -384,6 +384,8 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
     }
 }
 
+#include "render/modern_lanes.h"
+
 /* ---- the rest -------------------------------------------------------------------------------- */
 
 static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
@@ -454,6 +456,9 @@ const struct render_kernels RENDER_KERNELS = {
     .outside = outside,
     .aim_at = aim_at,
     .add_light = add_light,
+    .add_modern = add_modern,
+    .give = give,
+    .smoothen = smoothen,
     .reflect = reflect,
     .bounds = bounds,
     .pack = pack,

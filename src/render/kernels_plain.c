@@ -125,6 +125,33 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
     }
 }
 
+/* See surface_normal and surface_lift. */
+static void smoothen(const struct hit_shapes *h, bool lift, struct shade_batch *points)
+{
+    const struct vec3_batch *corner[3] = {&h->at, &h->second, &h->third};
+    for (uint32_t k = h->first[PRIM_TRIANGLE]; k < h->first[PRIM_TRIANGLE + 1]; k++) {
+        if (h->smooth[k] == 0)
+            continue;
+        double weight[3] = {1 - points->b1[k] - points->b2[k], points->b1[k], points->b2[k]};
+        struct vec3 face = vec3_get(&points->normal, k), p = vec3_get(&points->p, k), lifted = p;
+        struct vec3 n = vec3_scale(vec3_get(&h->corner_normal[0], k), weight[0]);
+        bool behind = vec3_dot(face, vec3_get(&points->incoming, k)) > 0;
+        struct vec3 outwards = behind ? vec3_neg(face) : face;
+        n = vec3_mad(n, weight[1], vec3_get(&h->corner_normal[1], k));
+        n = vec3_mad(n, weight[2], vec3_get(&h->corner_normal[2], k));
+        if (vec3_largest(n) > 0)
+            vec3_put(&points->normal, k, vec3_normalize(n));
+        for (int i = 0; i < 3 && lift; i++) {
+            n = vec3_get(&h->corner_normal[i], k);
+            n = vec3_dot(n, outwards) < 0 ? vec3_neg(n) : n;
+            double above = vec3_dot(vec3_sub(p, vec3_get(corner[i], k)), n);
+            lifted = above < 0 ? vec3_mad(lifted, -weight[i] * above, n) : lifted;
+        }
+        if (lift)
+            vec3_put(&points->lifted, k, lifted);
+    }
+}
+
 static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
 {
     for (uint32_t i = 0; i < points->n; i++) {
@@ -181,6 +208,9 @@ const struct render_kernels render_plain = {
     .outside = outside,
     .aim_at = aim_at,
     .add_light = add_light,
+    .add_modern = modern_add_light,
+    .give = modern_give,
+    .smoothen = smoothen,
     .reflect = reflect,
     .bounds = bounds,
     .pack = pack,

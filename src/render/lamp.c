@@ -37,6 +37,18 @@ static void add_points(struct lamp *lamp, bool skips)
     lamp->duplicates = skips ? lamp->samples - light->points.n : 0;
 }
 
+static void add_places(struct lamp *lamp)
+{
+    const struct light *light = lamp->light;
+    size_t batches = light->samples.n / BATCH + 1;
+    lamp->places = mem_alloc_aligned(batches, sizeof *lamp->places);
+    memset(lamp->places, 0, batches * sizeof *lamp->places);
+    for (size_t i = 0; i < light->samples.n; i++) {
+        struct sample_batch *b = &lamp->places[i / BATCH];
+        sample_batch_put(b, b->n++, &light->samples.at[i]);
+    }
+}
+
 /* All of the light's own surface, if it is little enough. */
 static void list_object(struct lamp *lamp)
 {
@@ -58,8 +70,9 @@ void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force, b
     accel_build(&lamp->object, &light->object, brute_force);
     if (skips)
         list_object(lamp);
+    lamp->box = geometry_bounds(&light->object);
     if (light->samples.n > 0)
-        lamp->box = geometry_bounds(&light->object);
+        add_places(lamp);
     else
         add_points(lamp, skips);
     lamp->always_counts |= light->samples.n > 0;
@@ -82,6 +95,7 @@ void lamp_free(struct lamp *lamp)
     if (lamp->object.geometry)
         accel_free(&lamp->object);
     free(lamp->points);
+    free(lamp->places);
 }
 
 /* ---- what is between --------------------------------------------------------------------------

@@ -55,12 +55,13 @@ static struct vec3 reflected_light(const struct seen_point *p, struct vec3 to_li
 
 /* ---- point lights and suns ------------------------------------------------------------------- */
 
-static void add_single(struct worker *w, const struct light *light, const double *shares)
+void modern_add_light(const struct shade_batch *points, const struct light *light,
+                      const double *shares, struct light_batch *sums)
 {
-    for (uint32_t k = 0; k < w->points.n; k++) {
-        if (shares[k] == 0 || w->points.finish[k]->glows)
+    for (uint32_t k = 0; k < points->n; k++) {
+        if (shares[k] == 0 || points->finish[k]->glows)
             continue;
-        struct seen_point p = seen_point_get(&w->points, k);
+        struct seen_point p = seen_point_get(points, k);
         struct vec3 to_light = light->position;
         double strength = 1;
         if (light->kind == LIGHT_POINT) {
@@ -70,29 +71,37 @@ static void add_single(struct worker *w, const struct light *light, const double
             strength = light->inverse_square ? 1 / square : 1;
         }
         struct vec3 lit = vec3_mul(reflected_light(&p, to_light), light->intensity);
-        struct vec3 sum = vec3_get(&w->light.direct, k);
-        vec3_put(&w->light.direct, k, vec3_mad(sum, strength, lit));
+        struct vec3 sum = vec3_get(&sums->direct, k);
+        vec3_put(&sums->direct, k, vec3_mad(sum, strength, lit));
     }
 }
 
 /* ---- area lights ----------------------------------------------------------------------------- */
 
-/* Where in its stratum sample (i, j) is: in the middle, or at random by the point itself, so that
- * neither threads nor tiles matter. */
-static struct light_sample sample_at(const struct tracer *t, const struct light *light,
-                                     struct vec3 p, uint32_t number)
+/* Samples from `first` on, of the whole light for the point k: each in the middle of its stratum,
+ * or at random there by the point itself, so that neither threads nor tiles matter. */
+static const struct sample_batch *samples_for(struct worker *w, const struct lamp *lamp, uint32_t k,
+                                              uint32_t first)
 {
+    const struct render_options *o = w->tracer->options;
+    const struct sample_batch *places = &lamp->places[first / BATCH];
+    uint32_t grid = lamp->light->grid;
     uint64_t x, y, z;
-    if (!t->options->jitter)
-        return light->samples.at[number];
-    memcpy(&x, &p.x, sizeof x);
-    memcpy(&y, &p.y, sizeof y);
-    memcpy(&z, &p.z, sizeof z);
+    if (!o->jitter)
+        return places;
+    memcpy(&x, &w->points.p.x[k], sizeof x);
+    memcpy(&y, &w->points.p.y[k], sizeof y);
+    memcpy(&z, &w->points.p.z[k], sizeof z);
     uint64_t key = x ^ (y << 21 | y >> 43) ^ (z << 42 | z >> 22);
-    double a = rng_uniform(t->options->seed, key, number, 0);
-    double b = rng_uniform(t->options->seed, key, number, 1);
-    return light_surface_at(light, (number / light->grid + a) / light->grid,
-                            (number % light->grid + b) / light->grid);
+    w->jittered.n = places->n;
+    for (uint32_t i = 0; i < places->n; i++) {
+        uint32_t number = first + i;
+        double a = rng_uniform(o->seed, key, number, 0), b = rng_uniform(o->seed, key, number, 1);
+        struct light_sample sample =
+            light_surface_at(lamp->light, (number / grid + a) / grid, (number % grid + b) / grid);
+        sample_batch_put(&w->jittered, i, &sample);
+    }
+    return &w->jittered;
 }
 
 /* What the sample gives the point if nothing is in the way. */
@@ -111,43 +120,65 @@ static struct vec3 sample_light(const struct light *light, const struct light_sa
     return vec3_scale(vec3_mul(reflected_light(p, to_light), light->intensity), strength);
 }
 
-uint32_t aim_at_samples(struct worker *w, const struct light *light, uint32_t k, uint32_t first,
-                        struct vec3 gives[BATCH])
+void modern_give(const struct shade_batch *points, uint32_t k, const struct light *light,
+                 const struct sample_batch *samples, struct vec3_batch *gives)
 {
-    struct ray_batch *rays = &w->shadow_rays;
-    struct seen_point p = seen_point_get(&w->points, k);
-    uint32_t number = first;
-    rays->n = 0;
-    rays->common_origin = true;
-    for (; number < light->samples.n && rays->n < BATCH; number++) {
-        struct light_sample sample = sample_at(w->tracer, light, p.s.p, number);
-        struct vec3 light_of = sample_light(light, &sample, &p);
-        if (vec3_is_zero(light_of))
-            continue;
-        uint32_t i = rays->n++;
-        gives[i] = light_of;
-        vec3_put(&rays->origin, i, p.lifted);
-        vec3_put(&rays->direction, i, vec3_sub(sample.position, p.lifted));
-        rays->t_max[i] = shadow_reach(w->tracer, light);
-        rays->from[i] = p.s.prim;
+    struct seen_point p = seen_point_get(points, k);
+    for (uint32_t i = 0; i < samples->n; i++) {
+        struct light_sample sample = {vec3_get(&samples->position, i),
+                                      vec3_get(&samples->normal, i), samples->share[i]};
+        vec3_put(gives, i, sample_light(light, &sample, &p));
     }
-    return number;
 }
 
-/* What arrives at point k; open: all of it does. */
-static struct vec3 area_light(struct worker *w, const struct light *light,
-                              const struct target_list *list, uint32_t k, bool open)
+uint32_t aim_at_samples(struct worker *w, const struct lamp *lamp, uint32_t k, uint32_t first,
+                        struct vec3 gives[BATCH])
+{
+    const struct tracer *t = w->tracer;
+    struct ray_batch *rays = &w->shadow_rays;
+    const struct sample_batch *samples = samples_for(w, lamp, k, first);
+    struct vec3 from = vec3_get(&w->points.lifted, k);
+    struct vec3_batch given;
+    uint32_t n = 0;
+    t->kernels->give(&w->points, k, lamp->light, samples, &given);
+    for (uint32_t i = 0; i < samples->n; i++) {
+        gives[n] = vec3_get(&given, i);
+        if (!vec3_is_zero(gives[n]))
+            vec3_put(&rays->direction, n++, vec3_sub(vec3_get(&samples->position, i), from));
+    }
+    t->kernels->fill(&rays->origin, 0, n, from);
+    fill(rays->t_max, 0, n, shadow_reach(t, lamp->light));
+    fill(rays->from, 0, n, w->points.prim[k]);
+    rays->n = n;
+    rays->common_origin = true;
+    return first + samples->n;
+}
+
+/* What arrives at point k. */
+static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
+                              const struct target_list *list, uint32_t k)
 {
     struct vec3 gives[BATCH], sum = vec3_all(0);
-    for (uint32_t number = 0; number < light->samples.n;) {
-        uint64_t blocked = 0;
-        number = aim_at_samples(w, light, k, number, gives);
-        if (open)
-            w->stats.skipped[SKIP_OPEN] += w->shadow_rays.n;
-        else
-            blocked = find_blocked(w, list);
+    for (uint32_t number = 0; number < lamp->light->samples.n;) {
+        number = aim_at_samples(w, lamp, k, number, gives);
+        uint64_t blocked = find_blocked(w, list);
         for (uint32_t i = 0; i < w->shadow_rays.n; i++)
             sum = blocked >> i & 1 ? sum : vec3_add(sum, gives[i]);
+    }
+    return sum;
+}
+
+/* The same where nothing is in the way. */
+static struct vec3 open_light(struct worker *w, const struct lamp *lamp, uint32_t k)
+{
+    struct vec3 sum = vec3_all(0);
+    for (uint32_t number = 0; number < lamp->light->samples.n; number += BATCH) {
+        const struct sample_batch *samples = samples_for(w, lamp, k, number);
+        struct vec3_batch gives;
+        w->tracer->kernels->give(&w->points, k, lamp->light, samples, &gives);
+        for (uint32_t i = 0; i < samples->n; i++)
+            sum = vec3_add(sum, vec3_get(&gives, i));
+        w->stats.skipped[SKIP_OPEN] += samples->n;
     }
     return sum;
 }
@@ -168,7 +199,8 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
             w->stats.skipped[SKIP_UMBRA] += lamp->light->samples.n;
             continue;
         }
-        struct vec3 light = area_light(w, lamp->light, &own, k, view == LAMP_OPEN);
+        struct vec3 light =
+            view == LAMP_OPEN ? open_light(w, lamp, k) : area_light(w, lamp, &own, k);
         vec3_put(&w->light.direct, k, vec3_add(vec3_get(&w->light.direct, k), light));
     }
 }
@@ -193,8 +225,9 @@ static void modern_add(struct worker *w, size_t k, struct box box)
         add_area(w, lamp, box);
         return;
     }
+    fill(shares, w->points.n, BATCH_ROOM, 0);
     lamp_shares(w, lamp, box, shares);
-    add_single(w, lamp->light, shares);
+    w->tracer->kernels->add_modern(&w->points, lamp->light, shares, &w->light);
 }
 
 /* ---- mirrored and refracted rays ------------------------------------------------------------- */

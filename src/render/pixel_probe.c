@@ -54,7 +54,7 @@ static void find_shadows(struct probe *p, const struct lamp *lamp, struct probe_
         return;
     }
     for (uint32_t number = 0; number < lamp->light->samples.n;) {
-        number = aim_at_samples(w, lamp->light, 0, number, gives);
+        number = aim_at_samples(w, lamp, 0, number, gives);
         count_rays(p, NULL, light);
     }
     for (size_t k = 0; k < lamp->point_batches; k++) {

@@ -71,9 +71,24 @@ static bool interpolates(const struct surface *surface)
     return surface->normals || surface->uvs;
 }
 
+/* Those at the corners of the triangle that points first to end lie on, if it is smooth. */
+static void gather_normals(struct hit_shapes *shapes, const struct tracer *t, uint32_t first,
+                           uint32_t end, struct prim prim, uint32_t number)
+{
+    const struct surface *surface = &t->scene->surfaces.at[prim.surface];
+    struct spot spot = {.geometry = &t->scene->geometry, .prim = number};
+    if (!surface->normals)
+        return;
+    for (int i = 0; i < 3; i++)
+        t->kernels->fill(&shapes->corner_normal[i], first, end,
+                         surface_corner_normal(surface, &spot, i));
+    fill(shapes->smooth, first, end, 1);
+    shapes->any_smooth = true;
+}
+
 /* The primitive of points first to end. */
 static void gather_shape(struct hit_shapes *shapes, const struct tracer *t, uint32_t first,
-                         uint32_t end, struct prim prim)
+                         uint32_t end, struct prim prim, uint32_t number)
 {
     const struct scene *scene = t->scene;
     const struct geometry *g = &scene->geometry;
@@ -92,11 +107,13 @@ static void gather_shape(struct hit_shapes *shapes, const struct tracer *t, uint
         const struct triangle *tri = &g->triangles.at[prim.index];
         kernels->fill(&shapes->at, first, end, g->vertices.at[tri->vertex[0]]);
         kernels->fill(&shapes->along, first, end, tri->normal);
+        fill(shapes->smooth, first, end, 0);
         if (!interpolates(&scene->surfaces.at[prim.surface]))
             return;
         kernels->fill(&shapes->second, first, end, g->vertices.at[tri->vertex[1]]);
         kernels->fill(&shapes->third, first, end, g->vertices.at[tri->vertex[2]]);
         shapes->weighted = true;
+        gather_normals(shapes, t, first, end, prim, number);
     }
 }
 
@@ -113,7 +130,7 @@ static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_
     vec3_put(&points->incoming, k, vec3_get(&rays->direction, i));
     vec3_put(&shapes->origins, k, vec3_get(&rays->origin, i));
     shapes->part[k] = w->hits.part[i];
-    gather_shape(shapes, w->tracer, k, k + 1, prim);
+    gather_shape(shapes, w->tracer, k, k + 1, prim, points->prim[k]);
 }
 
 /* Puts the hits in the order of their primitives' kinds. */
@@ -158,7 +175,7 @@ static void gather_same(struct worker *w, const struct ray_batch *rays)
     shapes->origin = &rays->origin;
     memcpy(points->t, w->hits.t, n * sizeof *points->t);
     memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
-    gather_shape(shapes, w->tracer, 0, n, prim);
+    gather_shape(shapes, w->tracer, 0, n, prim, number);
     for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
         shapes->first[kind] = kind <= prim.kind ? 0 : n;
 }
@@ -174,7 +191,7 @@ static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
 
 static void gather_points(struct worker *w, const struct ray_batch *rays)
 {
-    w->shapes.weighted = false;
+    w->shapes.weighted = w->shapes.any_smooth = false;
     if (all_hit_the_same(&w->hits, rays->n))
         gather_same(w, rays);
     else
@@ -296,19 +313,25 @@ static void note_textures(struct worker *w, uint32_t first, uint32_t end,
         add_textured(&w->paints, first, end, m->texture, &m->uv, u, v);
 }
 
-/* Modern: the other normals, and where shadow rays start. */
-static void raise_point(struct shade_batch *points, uint32_t k, const struct scene *scene,
-                        const struct surface *surface, const struct hit *hit)
+/* A smooth mesh's normal on an instance, which the kernels know nothing of; and where shadow rays
+ * start, modern. */
+static void smoothen_on_instance(struct worker *w, uint32_t k, const struct surface *surface)
 {
-    struct vec3 geometric = vec3_get(&points->geometric, k);
-    bool behind = vec3_dot(geometric, vec3_get(&points->incoming, k)) > 0;
-    struct vec3 outwards = behind ? vec3_neg(geometric) : geometric;
-    if (surface->flip)
-        vec3_put(&points->geometric, k, vec3_neg(geometric));
-    vec3_put(&points->smooth, k, vec3_get(&points->normal, k));
-    if (surface->normals)
+    const struct scene *scene = w->tracer->scene;
+    struct shade_batch *points = &w->points;
+    struct hit hit = hit_of_point(w, k);
+    struct vec3 face = vec3_get(&points->normal, k);
+    bool behind = vec3_dot(face, vec3_get(&points->incoming, k)) > 0;
+    vec3_put(&points->normal, k, surface_normal(scene, surface, &hit, face));
+    if (w->tracer->modern)
         vec3_put(&points->lifted, k,
-                 surface_lift(scene, surface, hit, vec3_get(&points->p, k), outwards));
+                 surface_lift(scene, surface, &hit, vec3_get(&points->p, k),
+                              behind ? vec3_neg(face) : face));
+}
+
+static void flip(struct vec3_batch *normals, uint32_t k)
+{
+    vec3_put(normals, k, vec3_neg(vec3_get(normals, k)));
 }
 
 /* Of points first to end, which lie on one surface: normals that are not the primitive's own, and
@@ -316,17 +339,17 @@ static void raise_point(struct shade_batch *points, uint32_t k, const struct sce
 static void apply_surface(struct worker *w, uint32_t first, uint32_t end,
                           const struct surface *surface)
 {
-    const struct scene *scene = w->tracer->scene;
     struct shade_batch *points = &w->points;
-    bool modern = w->tracer->modern, turns = surface->normals || surface->flip;
-    for (uint32_t k = first; k < end && (turns || modern); k++) {
-        struct hit hit = hit_of_point(w, k);
-        if (turns)
-            vec3_put(&points->normal, k,
-                     surface_normal(scene, surface, &hit, vec3_get(&points->normal, k)));
-        if (modern)
-            raise_point(points, k, scene, surface, &hit);
+    bool modern = w->tracer->modern, placed = first >= w->shapes.first[PRIM_INSTANCE];
+    for (uint32_t k = first; k < end && surface->normals && placed; k++)
+        smoothen_on_instance(w, k, surface);
+    for (uint32_t k = first; k < end && surface->flip; k++) {
+        if (!(surface->normals && placed))
+            flip(&points->normal, k);
+        flip(&points->geometric, k);
     }
+    for (uint32_t k = first; k < end && modern; k++)
+        vec3_put(&points->smooth, k, vec3_get(&points->normal, k));
     if (surface->needs_uv)
         note_textures(w, first, end, surface);
 }
@@ -452,6 +475,11 @@ static void finish_points(struct worker *w)
         vec3_copy(&points->lifted, points->n, &points->p);
     }
     points->any_uneven = points->any_glowing = points->any_bounces = false;
+    if (w->shapes.any_smooth) {
+        uint32_t end = w->shapes.first[PRIM_TRIANGLE + 1];
+        fill(w->shapes.smooth, end, end + BATCH_ROOM - BATCH, 0);
+        w->tracer->kernels->smoothen(&w->shapes, w->tracer->modern, points);
+    }
     for (uint32_t first = 0, end; first < points->n; first = end) {
         end = points->in_order ? points->n : first + 1;
         while (end < points->n && points->surface[end] == points->surface[first])

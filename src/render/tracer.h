@@ -19,6 +19,21 @@ struct lamp_points {
     bool all_count;
 };
 
+/* Places on an area light's surface, modern; see struct light_sample. */
+struct sample_batch {
+    uint32_t n;
+    struct vec3_batch position, normal;
+    alignas(64) double share[BATCH_ROOM];
+};
+
+static inline void sample_batch_put(struct sample_batch *b, uint32_t i,
+                                    const struct light_sample *sample)
+{
+    vec3_put(&b->position, i, sample->position);
+    vec3_put(&b->normal, i, sample->normal);
+    b->share[i] = sample->share;
+}
+
 /* A light made ready. */
 struct lamp {
     const struct light *light;
@@ -32,6 +47,7 @@ struct lamp {
     struct target_list targets; /* all of it */
     struct lamp_points *points;
     size_t point_batches;
+    struct sample_batch *places;  /* modern: BATCH of them, and so on */
     uint64_t samples, duplicates; /* points of the grid, and how many of them are there before */
     bool always_counts;           /* some sample point counts seen from anywhere */
 };
@@ -171,6 +187,9 @@ struct hit_shapes {
     struct vec3_batch at;            /* sphere's center, cylinder's base, triangle's first corner */
     struct vec3_batch along;         /* cylinder's axis, triangle's normal */
     struct vec3_batch second, third; /* corners, where weighted */
+    bool any_smooth;
+    alignas(64) double smooth[BATCH_ROOM]; /* 1 where normals are interpolated; of triangles */
+    struct vec3_batch corner_normal[3];    /* there */
     alignas(64) double radius[BATCH_ROOM];
     alignas(64) double height[BATCH_ROOM];
     alignas(64) double part[BATCH_ROOM];
@@ -221,6 +240,15 @@ struct render_kernels {
     /* Adds what the light gives, of which `shares` arrive. */
     void (*add_light)(const struct shade_batch *points, const struct light *light,
                       const double *shares, struct light_batch *sums);
+    /* The same of a point light or sun in modern. */
+    void (*add_modern)(const struct shade_batch *points, const struct light *light,
+                       const double *shares, struct light_batch *sums);
+    /* What samples of an area light give point k if nothing is in the way; modern. */
+    void (*give)(const struct shade_batch *points, uint32_t k, const struct light *light,
+                 const struct sample_batch *samples, struct vec3_batch *gives);
+    /* Interpolates the normals of smooth triangles, whose b1 and b2 are known; and lifts their
+     * points. */
+    void (*smoothen)(const struct hit_shapes *shapes, bool lift, struct shade_batch *points);
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
@@ -262,6 +290,7 @@ struct worker {
     struct textured bumps, paints; /* by normal maps, by textures */
     struct light_batch light;
     struct ray_batch shadow_rays;
+    struct sample_batch jittered; /* samples of an area light for one point */
 };
 
 /* lamp.c */
@@ -292,12 +321,20 @@ uint32_t find_blocker(const struct tracer *t, const struct ray *ray);
 /* Fill w->shadow_rays with rays to a light: from n of w->points to one that has a single ray a
  * point; from a point to the counted ones of a batch of lamp->points, *counts telling how often
  * each is there, in `room` if need be; modern: from point k to samples of an area light from
- * `first` on that give some light, and how much.  Returns the first not tried. */
+ * `first` on, a multiple of BATCH, that give some light, and how much.  Returns the first not
+ * tried.
+ */
 void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which, uint32_t n);
 void aim_at_points(struct worker *w, const struct lamp *lamp, size_t batch, struct vec3 p,
                    uint32_t prim, uint32_t room[BATCH], const uint32_t **counts);
-uint32_t aim_at_samples(struct worker *w, const struct light *light, uint32_t k, uint32_t first,
+uint32_t aim_at_samples(struct worker *w, const struct lamp *lamp, uint32_t k, uint32_t first,
                         struct vec3 gives[BATCH]);
+
+/* modern.c: the reference of these kernels. */
+void modern_add_light(const struct shade_batch *points, const struct light *light,
+                      const double *shares, struct light_batch *sums);
+void modern_give(const struct shade_batch *points, uint32_t k, const struct light *light,
+                 const struct sample_batch *samples, struct vec3_batch *gives);
 
 /* points.c: fills in w->points with the hits of the rays; paths is NULL for camera rays. */
 void find_points(struct worker *w, const struct ray_batch *rays, const struct path *paths);
