@@ -369,6 +369,27 @@ static bool take_accel(const struct opt_row *row, const char *text, struct optio
     return take_word(row, text, words) >= 0;
 }
 
+/* Names with commas between them; none: all there are, and the vector code with them. */
+static bool take_no_skip(const struct opt_row *row, const char *text, struct options *out)
+{
+    const char *words[SKIPS + 1] = {NULL};
+    for (int i = 0; i < SKIPS; i++)
+        words[i] = skip_rows[i].name;
+    if (!text)
+        out->no_skip = NO_SKIP_ALL;
+    while (text) {
+        char word[32];
+        const char *comma = strchr(text, ',');
+        snprintf(word, sizeof word, "%.*s", comma ? (int)(comma - text) : (int)strlen(text), text);
+        int i = take_word(row, word, words);
+        if (i < 0)
+            return false;
+        out->no_skip |= UINT32_C(1) << i;
+        text = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
 static bool take_isa(const struct opt_row *row, const char *text, struct options *out)
 {
     const char *words[ISA_COUNT + 1] = {NULL};

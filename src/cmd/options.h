@@ -73,7 +73,8 @@ struct options {
     bool list;
     bool expand, rebase, no_verify;
     bool in_place, check, difference;
-    bool jitter, brute_force, no_skip, quiet, verbose;
+    bool jitter, brute_force, quiet, verbose;
+    uint32_t no_skip; /* bit k: skip k is off */
     bool manual, json, deps, behind;
     uint32_t pixel[2];
     bool limited;

@@ -58,13 +58,22 @@ static json_t *adaptive_json(const struct run_stats *s, const struct options *o)
                      "estimated_error_max", a->worst, "unfinished", (json_int_t)a->unfinished);
 }
 
+/* Numbers of what was left out, from one row of skips.def to another. */
+static json_t *skips_json(const struct render_stats *r, int first, int end)
+{
+    json_t *counts = json_object();
+    for (int i = first; i < end; i++)
+        json_object_set_new(counts, skip_rows[i].name, json_integer((json_int_t)r->skipped[i]));
+    return counts;
+}
+
 static void render_json(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
     const struct render_stats *r = &s->render;
     print_json(
         json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:{s:I, s:I, "
-                  "s:I, s:I}, s:I, s:{s:I, s:I, s:I}, s:I, s:I, s:o, s:I}",
+                  "s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
@@ -72,10 +81,9 @@ static void render_json(const struct run_stats *s, const struct options *o,
                   "rays", "primary", (json_int_t)r->primary, "shadow", (json_int_t)r->shadow,
                   "reflection", (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction,
                   "shadow_rays_skipped", (json_int_t)shadow_rays_skipped(r),
-                  "shadow_rays_skipped_as", "open", (json_int_t)r->skipped[SKIP_OPEN], "umbra",
-                  (json_int_t)r->skipped[SKIP_UMBRA], "duplicate",
-                  (json_int_t)r->skipped[SKIP_DUPLICATE], "surfaces", (json_int_t)scene->surfaces.n,
-                  "triangles", (json_int_t)count_triangles(scene), "skipped", skipped_names(scene),
+                  "shadow_rays_skipped_as", skips_json(r, 0, SHADOW_SKIPS), "surfaces",
+                  (json_int_t)scene->surfaces.n, "triangles", (json_int_t)count_triangles(scene),
+                  "skipped", skipped_names(scene), "left_out", skips_json(r, SHADOW_SKIPS, SKIPS),
                   "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
@@ -117,10 +125,10 @@ static void render_text(const struct run_stats *s, const struct options *o,
             (unsigned long long)r->primary, (unsigned long long)r->shadow,
             (unsigned long long)r->reflection, (unsigned long long)r->refraction,
             r->render_s > 0 ? (double)rays / r->render_s * 1e-6 : 0);
-    fprintf(stderr, "skipped    %llu shadow rays (%llu open, %llu in the umbra, %llu duplicates)",
-            (unsigned long long)shadow_rays_skipped(r), (unsigned long long)r->skipped[SKIP_OPEN],
-            (unsigned long long)r->skipped[SKIP_UMBRA],
-            (unsigned long long)r->skipped[SKIP_DUPLICATE]);
+    fprintf(stderr, "skipped    %llu shadow rays", (unsigned long long)shadow_rays_skipped(r));
+    for (int i = 0; i < SKIPS; i++)
+        fprintf(stderr, "%s%llu %s%s", i == 0 ? " (" : ", ", (unsigned long long)r->skipped[i],
+                skip_rows[i].name, i == SHADOW_SKIPS - 1 ? ")" : "");
     for (size_t i = 0; i < scene->skipped.n; i++)
         fprintf(stderr, ", %s", scene->skipped.at[i]);
     fprintf(stderr, "\nmemory     %.1f MB at most\n", (double)stats_peak_rss() * 1e-6);

@@ -457,6 +457,7 @@ const struct render_kernels RENDER_KERNELS = {
     .aim_at = aim_at,
     .add_light = add_light,
     .add_modern = add_modern,
+    .front = front,
     .give = give,
     .smoothen = smoothen,
     .reflect = reflect,

@@ -187,6 +187,12 @@ static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, 
     }
 }
 
+static uint64_t front(const struct shade_batch *points, const struct lamp *lamp)
+{
+    (void)points, (void)lamp;
+    return UINT64_MAX;
+}
+
 /* Everything on the list may be in everyone's way. */
 static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
                 const struct vec3_batch *from, const uint32_t *prims, uint32_t first, uint32_t end,
@@ -209,6 +215,7 @@ const struct render_kernels render_plain = {
     .aim_at = aim_at,
     .add_light = add_light,
     .add_modern = modern_add_light,
+    .front = front,
     .give = modern_give,
     .smoothen = smoothen,
     .reflect = reflect,

@@ -194,13 +194,14 @@ uint32_t see_lamp(const struct tracer *t, const struct lamp *lamp, const struct 
     return end;
 }
 
-enum lamp_view lamp_view(const struct sight *sight, uint32_t k, struct target_list *own)
+enum lamp_view lamp_view(const struct tracer *t, const struct sight *sight, uint32_t k,
+                         struct target_list *own)
 {
     own->usable = sight->list.usable;
     own->n = 0;
     if (!own->usable)
         return LAMP_PARTLY;
-    if (sight->hidden >> k & 1)
+    if (sight->hidden >> k & 1 && tracer_skips(t, SKIP_UMBRA))
         return LAMP_HIDDEN;
     for (uint32_t i = 0; i < sight->list.n; i++) {
         if (!(sight->near[i] >> k & 1))
@@ -208,5 +209,5 @@ enum lamp_view lamp_view(const struct sight *sight, uint32_t k, struct target_li
         own->nearest[own->n] = 0;
         own->at[own->n++] = sight->list.at[i];
     }
-    return own->n > 0 ? LAMP_PARTLY : LAMP_OPEN;
+    return own->n > 0 || !tracer_skips(t, SKIP_OPEN) ? LAMP_PARTLY : LAMP_OPEN;
 }

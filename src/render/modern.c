@@ -188,13 +188,14 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
     const struct shade_batch *points = &w->points;
     struct target_list own;
     struct sight sight;
+    uint64_t lit = lit_points(w, lamp);
     for (uint32_t k = 0, end = 0; k < points->n; k++) {
-        if (k == end)
+        if (!(lit >> k & 1))
+            continue;
+        if (k >= end)
             end =
                 see_lamp(w->tracer, lamp, &points->lifted, points->prim, box, k, points->n, &sight);
-        if (points->finish[k]->glows)
-            continue;
-        enum lamp_view view = lamp_view(&sight, k, &own);
+        enum lamp_view view = lamp_view(w->tracer, &sight, k, &own);
         if (view == LAMP_HIDDEN) {
             w->stats.skipped[SKIP_UMBRA] += lamp->light->samples.n;
             continue;

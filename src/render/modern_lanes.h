@@ -3,6 +3,10 @@
 #include "math/lanes.h"
 #include "render/tracer.h"
 
+/* How far behind a point a lamp must be, over its distance, to surely give it no light: far more
+ * than rounding errors. */
+#define FRONT_MARGIN -1e-12
+
 /* Points as their eyes see them, see struct seen_point. */
 struct vseen {
     struct vvec3 p, incoming, normal, smooth, diffuse, specular;
@@ -117,6 +121,42 @@ static void add_modern(const struct shade_batch *points, const struct light *lig
         struct vvec3 reflected = v3_mul(lights_reflected(&s, to_light), intensity);
         v3_store(&sums->direct, i, v3_select(lit, v3_mad(sum, strength, reflected), sum));
     }
+}
+
+/* The most that n . (x - p) can be for a place x of the lamp that shines, and the largest |x - p|.
+ */
+static inline vmask may_face(struct vvec3 n, struct vvec3 to_center, vreal distance, double radius)
+{
+    vreal most = v3_dot(n, to_center) + radius * v_sqrt(v3_dot(n, n));
+    return v_not(v_less(most, FRONT_MARGIN * (distance + radius)));
+}
+
+/* Of point lights and suns by the very cosines that decide what is reflected, of others by a ball
+ * around them. */
+static uint64_t front(const struct shade_batch *points, const struct lamp *lamp)
+{
+    struct vvec3 position = v3_all(lamp->light->position);
+    uint64_t bits = 0;
+    for (uint32_t i = 0; i < points->n; i += LANES) {
+        struct vseen s = seen_points(points, i);
+        struct vvec3 way = position;
+        vmask faces;
+        if (lamp->light->kind == LIGHT_AREA) {
+            way = v3_sub(v3_all(lamp->center), s.p);
+            vreal distance = v_sqrt(v3_dot(way, way));
+            faces = may_face(s.normal, way, distance, lamp->radius) &
+                    may_face(s.smooth, way, distance, lamp->radius);
+        } else {
+            if (lamp->light->kind == LIGHT_POINT) {
+                way = v3_sub(position, s.p);
+                way = v3_scale(way, 1 / v_sqrt(v3_dot(way, way)));
+            }
+            faces =
+                v_less(v_all(0), v3_dot(s.normal, way)) & v_less(v_all(0), v3_dot(s.smooth, way));
+        }
+        bits |= (uint64_t)v_bits(faces) << i;
+    }
+    return bits;
 }
 
 static void give(const struct shade_batch *points, uint32_t k, const struct light *light,

@@ -503,8 +503,10 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     if (rays->n == 0)
         return;
     const struct target_list *list = find_targets(t, rays, paths ? NULL : &w->lookout, &room);
-    if (list->usable && list->n == 0)
+    if (list->usable && list->n == 0 && tracer_skips(t, SKIP_EMPTY)) {
+        w->stats.skipped[SKIP_EMPTY] += paths == NULL;
         return;
+    }
     bundle_closest(&t->accel, t->bundles, rays, list, &w->hits);
     uint64_t inside = meet_crossed_surfaces(w, rays, paths);
     gather_points(w, rays);

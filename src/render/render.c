@@ -7,6 +7,12 @@
 
 #include <stdatomic.h>
 
+const struct skip_row skip_rows[SKIPS] = {
+#define SKIP(id, name, what) [SKIP_##id] = {name, what},
+#include "render/skips.def"
+#undef SKIP
+};
+
 /* A part of the picture cut into tiles that threads take in turn. */
 struct rendering {
     struct tracer tracer;
@@ -149,12 +155,25 @@ static struct lens lens_for(const struct camera *c, const struct render_options 
     return o->whole_view ? lens_of(c, c->width, c->height) : lens_of(c, o->width, o->height);
 }
 
+/* Classic's may make colours no numbers. */
+static uint32_t note_dark_lamps(struct tracer *t)
+{
+    uint32_t dark = 0;
+    for (size_t i = 0; i < t->scene->lights.n && t->modern && tracer_skips(t, SKIP_DARK); i++) {
+        t->lamps[i].dark = vec3_is_zero(t->scene->lights.at[i].intensity);
+        dark += t->lamps[i].dark;
+    }
+    return dark;
+}
+
 static void build_accel(struct tracer *t)
 {
     const struct render_options *o = t->options;
     struct accel_options build = {o->brute_force, o->isa, o->threads, NULL};
-    bool *twins = t->skips ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
-    if (twins && find_twins(t, twins) > 0)
+    bool *twins =
+        tracer_skips(t, SKIP_TWINS) ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
+    t->twins = twins ? find_twins(t, twins) : 0;
+    if (t->twins > 0)
         build.spare = twins;
     accel_build_with(&t->accel, &t->scene->geometry, &build);
     free(twins);
@@ -166,13 +185,15 @@ void tracer_init(struct tracer *t, const struct scene *scene, const struct rende
                          .options = options,
                          .lens = lens_for(&scene->camera, options),
                          .lamps = mem_alloc(scene->lights.n, sizeof *t->lamps)};
-    t->skips = !options->no_skip && !options->brute_force;
+    t->skips = options->brute_force ? 0 : ~options->no_skip & ((UINT32_C(1) << SKIPS) - 1);
     t->bundles = bundle_kernels_of(options->isa);
     t->kernels = render_kernels_of(t->skips ? options->isa : ISA_PLAIN);
     t->modern = scene->model == SCENE_MODERN;
     t->shading = t->modern ? &shading_modern : &shading_classic;
     for (size_t i = 0; i < scene->lights.n; i++)
-        lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force, t->skips);
+        lamp_init(&t->lamps[i], &scene->lights.at[i], options->brute_force,
+                  tracer_skips(t, SKIP_DUPLICATE));
+    t->dark = note_dark_lamps(t);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
     for (size_t i = 0; i < scene->materials.n; i++)
         t->finishes[i] = finish_of(&scene->materials.at[i]);
@@ -201,7 +222,7 @@ static void add_stats(struct render_stats *sum, const struct render_stats *more)
     sum->shadow += more->shadow;
     sum->reflection += more->reflection;
     sum->refraction += more->refraction;
-    for (int i = 0; i < SKIP_REASONS; i++)
+    for (int i = 0; i < SKIPS; i++)
         sum->skipped[i] += more->skipped[i];
 }
 
@@ -247,6 +268,8 @@ void rendering_tiles(struct rendering *r, const size_t *tiles, size_t n)
 void rendering_end(struct rendering *r, struct render_stats *stats)
 {
     *stats = r->stats;
+    stats->skipped[SKIP_TWINS] = r->tracer.twins;
+    stats->skipped[SKIP_DARK] = r->tracer.dark;
     if (r->frame)
         stats->adaptive = adaptive_end(r->frame);
     for (unsigned i = 0; i < r->tracer.options->threads; i++) {

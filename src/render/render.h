@@ -42,15 +42,27 @@ struct render_options {
     unsigned threads; /* >= 1 */
     enum render_show show;
     bool brute_force; /* no BVH: every primitive is tested against every ray */
-    bool no_skip;     /* every optimisation that can be left out is off: same bytes */
+    uint32_t no_skip; /* bit k: skip k is off; all bits: whatever can be done without: same bytes */
     enum isa isa;     /* an available one: same bytes */
     struct render_progress progress; /* report may be NULL */
     struct render_watch watch;
 };
 
-/* Why a shadow ray is not traced: nothing can be in its way; one surface hides all of the light
- * from the point; another ray to the same sample is. */
-enum skip_reason { SKIP_OPEN, SKIP_UMBRA, SKIP_DUPLICATE, SKIP_REASONS };
+/* What is left out; see skips.def. */
+enum skip {
+#define SKIP(id, name, what) SKIP_##id,
+#include "render/skips.def"
+#undef SKIP
+    SKIPS,
+    SHADOW_SKIPS = SKIP_BEHIND + 1 /* of them, the first */
+};
+
+struct skip_row {
+    const char *name, *what;
+};
+extern const struct skip_row skip_rows[SKIPS];
+
+#define NO_SKIP_ALL UINT32_MAX
 
 struct adaptive_stats {
     double error, worst; /* estimated standard errors of the pixels: root mean square, largest */
@@ -61,13 +73,16 @@ struct adaptive_stats {
 struct render_stats {
     double build_s, render_s;
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
-    uint64_t skipped[SKIP_REASONS]; /* shadow rays whose outcome was known without tracing */
+    uint64_t skipped[SKIPS];
     struct adaptive_stats adaptive;
 };
 
 static inline uint64_t shadow_rays_skipped(const struct render_stats *s)
 {
-    return s->skipped[SKIP_OPEN] + s->skipped[SKIP_UMBRA] + s->skipped[SKIP_DUPLICATE];
+    uint64_t sum = 0;
+    for (int i = 0; i < SHADOW_SKIPS; i++)
+        sum += s->skipped[i];
+    return sum;
 }
 
 /* How bytes of the picture hold what is shown: light by the model, anything else as it is. */

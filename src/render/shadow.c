@@ -149,7 +149,7 @@ static void area_shares(struct worker *w, const struct lamp *lamp, struct box bo
             shares[k] = 1;
             continue;
         }
-        enum lamp_view view = lamp_view(&sight, k, &own);
+        enum lamp_view view = lamp_view(w->tracer, &sight, k, &own);
         if (view == LAMP_PARTLY || (view == LAMP_OPEN && !lamp->always_counts)) {
             shares[k] = sampled_share(w, lamp, &own, vec3_get(&points->p, k), points->prim[k]);
             w->stats.skipped[SKIP_DUPLICATE] += lamp->duplicates;
@@ -160,22 +160,25 @@ static void area_shares(struct worker *w, const struct lamp *lamp, struct box bo
     }
 }
 
-/* The points that a light lights at all. */
-static uint32_t lit_points(const struct shade_batch *points, uint32_t which[BATCH])
+uint64_t lit_points(struct worker *w, const struct lamp *lamp)
 {
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < points->n; k++)
-        if (!points->any_glowing || !points->finish[k]->glows)
-            which[n++] = k;
-    return n;
+    const struct shade_batch *points = &w->points;
+    uint64_t all = UINT64_MAX >> (BATCH - points->n), lit = all;
+    for (uint32_t k = 0; k < points->n && points->any_glowing; k++)
+        lit &= ~((uint64_t)points->finish[k]->glows << k);
+    if (!w->tracer->modern || !tracer_skips(w->tracer, SKIP_BEHIND))
+        return lit;
+    uint64_t front = lit & w->tracer->kernels->front(points, lamp);
+    uint64_t rays = lamp->light->kind == LIGHT_AREA ? lamp->light->samples.n : 1;
+    w->stats.skipped[SKIP_BEHIND] += rays * (uint64_t)__builtin_popcountll(lit & ~front);
+    return front;
 }
 
 /* Nothing stands between any of the points and the lamp. */
-static void open_shares(struct worker *w, double *shares)
+static void open_shares(struct worker *w, uint64_t lit, double *shares)
 {
-    uint32_t which[BATCH];
     fill(shares, 0, w->points.n, 1);
-    w->stats.skipped[SKIP_OPEN] += lit_points(&w->points, which);
+    w->stats.skipped[SKIP_OPEN] += (uint64_t)__builtin_popcountll(lit);
 }
 
 /* Modern's shadow rays end this much of their length before the light, so that what the light lies
@@ -204,12 +207,14 @@ void aim_at_light(struct worker *w, const struct light *light, const uint32_t *w
 }
 
 static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
-                         double *shares)
+                         uint64_t lit, double *shares)
 {
-    uint32_t which[BATCH], n = lit_points(&w->points, which);
+    uint32_t which[BATCH], n = 0;
     fill(shares, 0, w->points.n, 1);
-    if (n == 0)
+    if (!lit)
         return;
+    for (; lit; lit &= lit - 1)
+        which[n++] = (uint32_t)__builtin_ctzll(lit);
     aim_at_light(w, lamp->light, which, n);
     uint64_t blocked = find_blocked(w, list);
     for (; blocked; blocked &= blocked - 1)
@@ -224,10 +229,11 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, doub
         return;
     }
     const struct tracer *t = w->tracer;
-    if (t->skips && w->points.n > 1 && !bundle_needs_no_lists(&t->accel))
+    uint64_t lit = lit_points(w, lamp);
+    if (t->skips && lit && w->points.n > 1 && !bundle_needs_no_lists(&t->accel))
         list_shadowers(t, lamp, box, &list);
-    if (list.usable && list.n == 0)
-        open_shares(w, shares);
+    if (list.usable && list.n == 0 && tracer_skips(t, SKIP_OPEN))
+        open_shares(w, lit, shares);
     else
-        point_shares(w, lamp, &list, shares);
+        point_shares(w, lamp, &list, lit, shares);
 }

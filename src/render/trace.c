@@ -56,7 +56,8 @@ static void add_lights(struct worker *w)
     const struct shading *shading = w->tracer->shading;
     struct box box = shading->begin(w);
     for (size_t k = 0; k < w->tracer->scene->lights.n; k++)
-        shading->add(w, k, box);
+        if (!w->tracer->lamps[k].dark)
+            shading->add(w, k, box);
 }
 
 /* What the rays see before others come back. */

@@ -48,6 +48,7 @@ struct lamp {
     struct lamp_points *points;
     size_t point_batches;
     struct sample_batch *places;  /* modern: BATCH of them, and so on */
+    bool dark;                    /* it gives no light; modern */
     uint64_t samples, duplicates; /* points of the grid, and how many of them are there before */
     bool always_counts;           /* some sample point counts seen from anywhere */
 };
@@ -93,8 +94,14 @@ struct tracer {
     struct finish *finishes; /* one a material */
     bool *emissive;          /* by surface: it does not block light */
     bool any_emissive;
-    bool skips; /* work whose outcome is known beforehand is left out */
+    uint32_t twins, dark; /* primitives and lights that are left out for that */
+    uint32_t skips;       /* bit k: skip k is on; 0: nothing clever is done at all */
 };
+
+static inline bool tracer_skips(const struct tracer *t, enum skip skip)
+{
+    return t->skips >> skip & 1;
+}
 
 /* The surfaces that a ray is inside of, the one entered last at the end; modern.  What is nested
  * deeper than the limit does not refract. */
@@ -243,6 +250,8 @@ struct render_kernels {
     /* The same of a point light or sun in modern. */
     void (*add_modern)(const struct shade_batch *points, const struct light *light,
                        const double *shares, struct light_batch *sums);
+    /* Bit k: point k may get light from the lamp.  It gets none where bit k is 0; modern. */
+    uint64_t (*front)(const struct shade_batch *points, const struct lamp *lamp);
     /* What samples of an area light give point k if nothing is in the way; modern. */
     void (*give)(const struct shade_batch *points, uint32_t k, const struct light *light,
                  const struct sample_batch *samples, struct vec3_batch *gives);
@@ -307,11 +316,14 @@ uint32_t see_lamp(const struct tracer *t, const struct lamp *lamp, const struct 
                   struct sight *sight);
 /* Point k of them; LAMP_PARTLY: `own` lists what can be in its way. */
 enum lamp_view { LAMP_HIDDEN, LAMP_PARTLY, LAMP_OPEN };
-enum lamp_view lamp_view(const struct sight *sight, uint32_t k, struct target_list *own);
+enum lamp_view lamp_view(const struct tracer *t, const struct sight *sight, uint32_t k,
+                         struct target_list *own);
 
 /* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box.
  * Classic, but for point lights and suns, which have it in both. */
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
+/* Bit k: point k may get light from the lamp if nothing is in the way; there are some. */
+uint64_t lit_points(struct worker *w, const struct lamp *lamp);
 /* How far a shadow ray to the light goes, in its own length. */
 double shadow_reach(const struct tracer *t, const struct light *light);
 /* Traces w->shadow_rays; bit i: ray i meets what blocks light. */

@@ -34,7 +34,7 @@ static struct picture *render_text(const char *text, bool floats, bool plain)
                                .grid = s->grid,
                                .depth = s->depth,
                                .threads = 1,
-                               .no_skip = plain};
+                               .no_skip = plain ? NO_SKIP_ALL : 0};
     o.crop.x1 = o.width;
     o.crop.y1 = o.height;
     struct picture *p = picture_new(o.width, o.height, floats);

@@ -263,11 +263,11 @@ START_TEST(no_option_changes_a_bit)
         if (isa_available(o.isa))
             check_same(&s, &o, expected);
     }
-    o.no_skip = true;
+    o.no_skip = NO_SKIP_ALL;
     check_same(&s, &o, expected);
     o.brute_force = true;
     check_same(&s, &o, expected);
-    o.no_skip = false;
+    o.no_skip = 0;
     check_same(&s, &o, expected);
     picture_free(expected);
     scene_free(&s);
@@ -282,10 +282,10 @@ START_TEST(skipping_skips)
     struct render_stats with, without;
     struct picture *p = picture_new(o.width, o.height, PICTURE_BYTES);
     render_scene(&s, &o, p, &with);
-    o.no_skip = true;
+    o.no_skip = NO_SKIP_ALL;
     render_scene(&s, &o, p, &without);
     ck_assert_uint_eq(shadow_rays_skipped(&without), 0);
-    for (int i = 0; i < SKIP_REASONS; i++)
+    for (int i = 0; i < SKIP_BEHIND; i++)
         ck_assert_uint_gt(with.skipped[i], 0);
     ck_assert_uint_lt(with.shadow, without.shadow);
     ck_assert_uint_ge(with.shadow + shadow_rays_skipped(&with), without.shadow);
