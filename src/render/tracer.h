@@ -379,7 +379,7 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
 struct worker *worker_new(const struct tracer *tracer);
 void worker_free(struct worker *w);
 
-/* twins.c: notes primitives that lie exactly where an earlier one does, and returns how many. */
+/* spare.c: notes primitives that lie exactly where an earlier one does, and returns how many. */
 uint32_t find_twins(const struct tracer *t, bool *twins);
 
 /* render.c */
