@@ -400,12 +400,12 @@ def lights_section(results):
 
 def method_section(results):
     n = results["reference"]
-    width, height = results["size"]
+    sizes = ", ".join("{} {} × {}".format(scene["title"], *scene["size"]) for scene in results["scenes"])
     cpu = platform.processor() or platform.machine()
     if os.path.exists("/proc/cpuinfo"):
         with open("/proc/cpuinfo", encoding="utf-8") as info:
             cpu = next((line.split(":")[1].strip() for line in info if "model name" in line), cpu)
-    return (f"<p>Pictures of {width} × {height} pixels, written as floats and compared by "
+    return (f"<p>Pictures (pixels: {sizes}) are written as floats and compared by "
             f"<code>wrt diff</code> with {n} × {n} = {n * n} jittered samples of another seed, at least 16 "
             "times as many as any picture compared but the finest adaptive ones take.  Seconds are those of "
             f"rendering alone, the fastest of three runs where they are short, on {os.cpu_count()} "
