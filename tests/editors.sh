@@ -291,7 +291,7 @@ completes 'wrt doc cyl' 'cylinder'
 completes 'wrt explain E10' "$(codes | grep '^E10' | line)"
 completes 'wrt uv ' 'd.wrl folder'
 completes 'wrt lsp ' ''
-completes 'wrt lsp --' '--warn --no-warn --include --max-objects --help --version'
+completes 'wrt lsp --' '--warn --no-warn --include --max-objects --max-memory --restrict --help --version'
 
 # ---- the others, where they are installed -------------------------------------------------------
 
