@@ -7,6 +7,7 @@ set -u
 full=${WRT_FULL:-}
 [ "${1:-}" = --full ] && full=1
 wrt=${WRT:-build/wrt}
+[ -x "$wrt" ] || { echo "farm: no program $wrt" >&2; exit 1; }
 wrt=$(cd "$(dirname "$wrt")" && pwd)/$(basename "$wrt")
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 kills=3 damages=2 ways_of_parts=1
@@ -134,5 +135,29 @@ for way in "${ways[@]:0:ways_of_parts}"; do
 done
 "$wrt" merge part[1-46-7] -o missing.png 2>err && complain "a missing part was not missed"
 grep -q 'of 7 parts, 5 is missing' err || complain "a missing part: $(cat err)"
+
+# Frames: what does not change is read once, which a pipe shows; one at a time they are the same.
+mkfifo mesh.off
+cat >film.wrt <<'END'
+wrt 1
+model modern
+param frame = 0
+param time = 0.0
+param file = "mesh.off"
+camera { eye: (0, 3, 9 - time) look_at: (0, 0, 0) up: (0, 1, 0) fov: 40 resolution: (60, 45) }
+light sun { direction: (1, -2, -1) intensity: 2 }
+for i in range(4) {
+    mesh { file: file smooth: true position: (2 * i - 3, floor(frame / 2), 0)
+           material: lambert { diffuse: 1 } }
+}
+END
+cat "$top/scenes/assets/pot.off" >mesh.off &
+timeout 60 "$wrt" film.wrt --frames 1..4 || complain "a mesh is read more than once"
+rm mesh.off
+for frame in 1 4; do
+    "$wrt" film.wrt -D file="$top/scenes/assets/pot.off" -D frame=$frame \
+        -D time="$(awk "BEGIN { printf \"%.17g\", $frame / 24 }")" -o one.png
+    cmp -s one.png film-000$frame.png || complain "frame $frame differs from the picture by itself"
+done
 
 [ $failed = 0 ]

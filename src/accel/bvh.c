@@ -1,8 +1,11 @@
 #include "config.h"
 
+#include "accel/store.h"
 #include "accel/wide.h"
 
+#include "base/hash.h"
 #include "base/thread.h"
+#include "scene/fingerprint.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -253,8 +256,8 @@ static struct accel *build_prototypes(const struct geometry *g, const struct acc
     return a;
 }
 
-void accel_build_with(struct accel *a, const struct geometry *geometry,
-                      const struct accel_options *options)
+static void build_tree(struct accel *a, const struct geometry *geometry,
+                       const struct accel_options *options)
 {
     uint32_t n = (uint32_t)geometry->prims.n;
     struct builder w = {.geometry = geometry,
@@ -274,14 +277,31 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
                         .nodes = w.nodes,
                         .node_count = w.node_count,
                         .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0,
-                        .padding = BOX_PADDING * (1 + geometry->worst_growth),
-                        .prototypes = build_prototypes(geometry, options)};
+                        .padding = BOX_PADDING * (1 + geometry->worst_growth)};
     for (uint32_t i = 0; i < n; i++)
         a->targets[i] = target_of(geometry, w.order[i]);
     a->wide = wide_build(a, options->isa, options->threads);
     free(w.boxes);
     free(w.centers);
     free(w.order);
+}
+
+static uint64_t fingerprint_of(const struct geometry *g, const bool *spare)
+{
+    uint64_t shapes = geometry_fingerprint(g);
+    return spare ? hash_of(spare, g->prims.n * sizeof *spare, shapes) : shapes;
+}
+
+void accel_build_with(struct accel *a, const struct geometry *geometry,
+                      const struct accel_options *options)
+{
+    struct accel_store *store = options->store;
+    uint64_t fingerprint = store ? fingerprint_of(geometry, options->spare) : 0;
+    if (!store || !accel_store_take(store, fingerprint, a))
+        build_tree(a, geometry, options);
+    a->geometry = geometry;
+    a->fingerprint = fingerprint;
+    a->prototypes = build_prototypes(geometry, options);
 }
 
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force)

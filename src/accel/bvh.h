@@ -27,14 +27,18 @@ struct accel {
     double padding;           /* BOX_PADDING, times what instances add to rounding errors */
     struct accel *prototypes; /* one for each of the geometry's; NULL: there are none */
     struct wide *wide;        /* the nodes made ready for vector code, or NULL */
+    uint64_t fingerprint;     /* of what it was built of; with a store only */
 };
+
+struct accel_store;
 
 /* How an accel is built; all find the same hits. */
 struct accel_options {
     bool brute_force; /* no tree: every primitive is tried */
     enum isa isa;
-    unsigned threads; /* >= 1 */
-    const bool *spare; /* primitives that are left out, or NULL: none */
+    unsigned threads;          /* >= 1 */
+    const bool *spare;         /* primitives that are left out, or NULL: none */
+    struct accel_store *store; /* trees of before that are taken where they fit; or NULL */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */

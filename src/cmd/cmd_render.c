@@ -29,10 +29,12 @@ char *default_picture(const char *scene)
 
 static char *default_output(const struct options *o)
 {
-    char end[48];
-    if (o->parts == 0)
-        return default_picture(o->scenes.at[0]);
-    snprintf(end, sizeof end, "-%u-of-%u.tiles", o->part, o->parts);
+    char end[64];
+    const char *frame = o->animated ? "-%04d" : "";
+    if (o->parts > 0)
+        snprintf(end, sizeof end, "%s-%u-of-%u.tiles", frame, o->part, o->parts);
+    else
+        snprintf(end, sizeof end, "%s.png", frame);
     return name_after(o->scenes.at[0], end);
 }
 
@@ -93,12 +95,19 @@ static int load(struct render_run *r)
     r->stats.parse_s = r->frontend.seconds;
     double start = thread_seconds();
     if (right)
-        right =
-            lower_scene(&r->frontend.desc, &r->frontend.sources, &r->lowered, &r->frontend.diag);
+        right = lower_scene_keeping(&r->frontend.desc, &r->frontend.sources, r->files, &r->lowered,
+                                    &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
     right = right && check_limits(r);
-    int status = frontend_report(&r->frontend, o, o->verbose ? DIAG_NOTE : DIAG_WARNING);
-    if (right && o->verbose)
+    bool said = render_frames_said(r);
+    if (right && !render_frames_differ(r))
+        diag_report(&r->frontend.diag, DIAG_UNKNOWN_PARAM, (struct span){0},
+                    "--frames: the scene has no param 'frame' or 'time', so all would be the same");
+    int status = frontend_report(&r->frontend, o,
+                                 said         ? DIAG_ERROR
+                                 : o->verbose ? DIAG_NOTE
+                                              : DIAG_WARNING);
+    if (right && o->verbose && !said)
         describe_meshes(r);
     return status;
 }
@@ -150,7 +159,7 @@ static bool ended_early(const struct render_run *r)
     return interrupt_flag && (r->options->time > 0 || r->finished < r->expected);
 }
 
-static int run_steps(struct render_run *r)
+int render_picture(struct render_run *r)
 {
     r->started = thread_seconds();
     int status = render_choose_format(r);
@@ -163,6 +172,8 @@ static int run_steps(struct render_run *r)
     if (status != 0)
         return status;
     begin_picture(r);
+    if (r->frames && render_frame_is_there(r))
+        return 0;
     status = render_open_journal(r);
     if (status != 0)
         return status;
@@ -184,13 +195,13 @@ static int check_options(const struct options *o)
                            : usage_error("render: no scene given");
     if (o->resume && !o->checkpoint)
         return usage_error("--resume goes on with a --checkpoint, and none is given");
-    if (o->time > 0 && (o->checkpoint || o->parts > 0))
-        return usage_error("--time makes another picture each time; --checkpoint and --part cannot "
-                           "go on with it");
+    if (o->time > 0 && (o->checkpoint || o->parts > 0 || o->animated))
+        return usage_error("--time makes another picture each time: it is no option with "
+                           "--checkpoint, --frames and --part");
     return 0;
 }
 
-static void render_run_free(struct render_run *r)
+void render_run_free(struct render_run *r)
 {
     if (r->journal)
         journal_close(r->journal, false);
@@ -207,8 +218,12 @@ int command_render(const struct options *o)
         return status;
     char *by_default = o->output ? NULL : default_output(o);
     struct render_run r = {.options = o, .output = o->output ? o->output : by_default};
-    status = run_steps(&r);
-    render_run_free(&r);
+    if (o->animated) {
+        status = render_frames(o, r.output);
+    } else {
+        status = render_picture(&r);
+        render_run_free(&r);
+    }
     free(by_default);
     return status;
 }

@@ -66,7 +66,8 @@ static struct eval_define *parse_defines(struct frontend *f, const struct option
         struct ast ast;
         syntax_parse_value(&f->sources, add_define(f, name, value), &ast);
         vec_push(&f->defines, ast);
-        defines[i] = (struct eval_define){name, ast.statements};
+        defines[i] =
+            (struct eval_define){name, ast.statements, i + o->optional_defines >= o->defines.n};
     }
     return defines;
 }

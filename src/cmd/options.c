@@ -176,6 +176,24 @@ static bool take_part(const struct opt_row *row, const char *text, struct option
     return false;
 }
 
+static bool take_frames(const struct opt_row *row, const char *text, struct options *out)
+{
+    const char *dots = strstr(text, "..");
+    uint64_t first, last;
+    char begin[16] = "";
+    if (dots && (size_t)(dots - text) < sizeof begin) {
+        memcpy(begin, text, (size_t)(dots - text));
+        if (read_whole(begin, 0, UINT32_MAX - 1, &first) &&
+            read_whole(dots + 2, first, UINT32_MAX - 1, &last)) {
+            out->frames[0] = (uint32_t)first;
+            out->frames[1] = (uint32_t)last;
+            return out->animated = true;
+        }
+    }
+    usage_error("--%s takes A..B, as in 1..240, with A not above B, not '%s'", row->name, text);
+    return false;
+}
+
 static bool take_seed(const struct opt_row *row, const char *text, struct options *out)
 {
     return take_between(row, text, 0, UINT64_MAX, &out->seed);
@@ -578,6 +596,7 @@ static bool accept(const struct given *g, const char *word, unsigned command, st
 enum options_result options_read(int argc, char **argv, unsigned command, struct options *out)
 {
     *out = (struct options){.depth = DEPTH_OF_SCENE,
+                            .fps = 24,
                             .threads = thread_cores(),
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000,

@@ -41,6 +41,7 @@ struct options {
     VEC(const char *) scenes;  /* or whatever else the command takes */
     size_t current;            /* the one under way, for commands that take several */
     VEC(const char *) defines; /* NAME=VALUE */
+    size_t optional_defines;   /* of these the last, which the scene need not have */
     VEC(const char *) folders; /* of includes */
     const char *output;        /* or NULL */
     const char *to;            /* the format of the output, or NULL */
@@ -55,7 +56,10 @@ struct options {
     const char *checkpoint; /* or NULL */
     bool resume;
     uint32_t part, parts; /* from 1; 0: the whole picture */
-    uint32_t depth;       /* or DEPTH_OF_SCENE */
+    bool animated;
+    uint32_t frames[2]; /* first and last */
+    uint32_t fps;
+    uint32_t depth; /* or DEPTH_OF_SCENE */
     uint32_t threads;
     uint64_t seed;
     size_t max_objects;

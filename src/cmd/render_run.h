@@ -9,8 +9,12 @@
 
 #include <stdatomic.h>
 
+struct frames;
+
 struct render_run {
     const struct options *options;
+    struct frames *frames;     /* the picture is one of them; or NULL */
+    struct lower_files *files; /* that they share; or NULL */
     struct frontend frontend;
     struct lowered lowered;
     const char *output; /* path of the picture, or of a part */
@@ -29,6 +33,25 @@ struct render_run {
     struct progress progress;
     double started; /* of thread_seconds() */
 };
+
+/* ---- cmd_render.c ---- */
+
+/* All steps; the exit status.  Options, output, frames and files are set. */
+int render_picture(struct render_run *r);
+void render_run_free(struct render_run *r);
+
+/* ---- render_frames.c ---- */
+
+/* `pattern` has %04d in it; the exit status. */
+int render_frames(const struct options *o, const char *pattern);
+/* Whether the frame's file is there, made of the same scene and settings, and whole. */
+bool render_frame_is_there(struct render_run *r);
+/* Notes that it is; NULL or a reason. */
+const char *render_frame_record(struct render_run *r);
+/* Whether findings of the scene have been told with a frame before. */
+bool render_frames_said(const struct render_run *r);
+/* Whether the scene has one of the params that frames set; true without frames. */
+bool render_frames_differ(const struct render_run *r);
 
 /* ---- render_settings.c: what is rendered ---- */
 

@@ -123,7 +123,7 @@ static void report_unused_define(struct eval *e, struct str name)
 static void report_unused_defines(struct eval *e)
 {
     for (size_t i = 0; i < e->options->define_count; i++)
-        if (!e->define_used[i])
+        if (!e->define_used[i] && !e->options->defines[i].optional)
             report_unused_define(e, e->options->defines[i].name);
 }
 

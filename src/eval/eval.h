@@ -11,6 +11,7 @@
 struct eval_define {
     struct str name;
     const struct ast_node *value;
+    bool optional; /* the scene need not have it */
 };
 
 struct eval_options {

@@ -71,20 +71,63 @@ static bool read_file(struct lowering *l, const struct desc_value *file, const c
     return reason == NULL;
 }
 
+/* ---- files that are kept ---- */
+
+struct lower_files *lower_files_new(void)
+{
+    return mem_zalloc(1, sizeof(struct lower_files));
+}
+
+void lower_files_free(struct lower_files *f)
+{
+    for (size_t i = 0; i < f->all_images.n; i++)
+        image_free(f->all_images.at[i]);
+    for (size_t i = 0; i < f->all_meshes.n; i++)
+        mesh_free(f->all_meshes.at[i]);
+    vec_free(&f->all_images);
+    vec_free(&f->all_meshes);
+    map_free(&f->images);
+    map_free(&f->meshes);
+    map_free(&f->lists);
+    arena_free(&f->arena);
+    free(f);
+}
+
+static void keep(struct lower_files *f, struct map *map, struct str key, void *value)
+{
+    map_set(map, (struct str){arena_copy(&f->arena, key.at, key.n), key.n}, value);
+}
+
+/* ---- textures ---- */
+
+static struct image *decode_image(struct lowering *l, const struct desc_value *file,
+                                  const char *path)
+{
+    char *data, reason[256];
+    size_t n;
+    if (!read_file(l, file, path, "texture", &data, &n))
+        return NULL;
+    struct image *image = image_decode(data, n, reason);
+    free(data);
+    if (!image)
+        diag_report(l->diag, DIAG_TEXTURE_DAMAGED, file->span, "cannot use the texture '%s': %s",
+                    path, reason);
+    return image;
+}
+
 static struct image *load_image(struct lowering *l, const struct desc_value *file)
 {
     const char *path = path_of(l, file);
-    char *data, reason[256];
-    size_t n;
     struct image *image = map_get(&l->images, str_of(path));
-    if (image || !read_file(l, file, path, "texture", &data, &n))
+    if (image)
         return image;
-    image = image_decode(data, n, reason);
-    free(data);
-    if (!image) {
-        diag_report(l->diag, DIAG_TEXTURE_DAMAGED, file->span, "cannot use the texture '%s': %s",
-                    path, reason);
+    image = l->kept ? map_get(&l->kept->images, str_of(path)) : NULL;
+    bool known = image != NULL;
+    if (!known && !(image = decode_image(l, file, path)))
         return NULL;
+    if (l->kept && !known) {
+        vec_push(&l->kept->all_images, image);
+        keep(l->kept, &l->kept->images, str_of(path), image);
     }
     vec_push(&l->scene->images, image);
     map_set(&l->images, str_of(path), image);
@@ -147,7 +190,7 @@ void lower_label_request(struct lowering *l, size_t first, const struct desc_val
         diag_label(l->diag->entries.at[i], file->span, "the scene names the file here");
 }
 
-static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file, const char *path)
+static struct mesh *read_mesh(struct lowering *l, const struct desc_value *file, const char *path)
 {
 #ifdef HAVE_OPENMESH
     const struct source *s = load_source(l, file, path, "mesh");
@@ -163,6 +206,22 @@ static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file,
 #endif
 }
 
+/* Where a kept file said something is not known any more in the next scene. */
+static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file, const char *path)
+{
+    struct mesh *m = l->kept ? map_get(&l->kept->meshes, str_of(path)) : NULL;
+    if (m) {
+        m->bare = (struct span){0};
+        return m;
+    }
+    m = read_mesh(l, file, path);
+    if (m && l->kept) {
+        vec_push(&l->kept->all_meshes, m);
+        keep(l->kept, &l->kept->meshes, str_of(path), m);
+    }
+    return m;
+}
+
 const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file)
 {
     const char *path = path_of(l, file);
@@ -176,6 +235,26 @@ const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_v
     return &l->out->meshes.at[known - 1];
 }
 
+/* In the arena of what keeps it; NULL after reporting. */
+static struct vec2 *read_uv_list(struct lowering *l, const struct desc_value *file,
+                                 const char *path, size_t faces)
+{
+    const struct source *s = load_source(l, file, path, "UV list");
+    struct vec2 *uvs = NULL;
+    size_t first = l->diag->entries.n, n = 3 * faces;
+    if (!s)
+        return NULL;
+    if (!uv_list_parse(s, faces, &uvs, l->diag)) {
+        lower_label_request(l, first, file);
+        return NULL;
+    }
+    struct arena *arena = l->kept ? &l->kept->arena : &l->scene->arena;
+    struct vec2 *copy = arena_zalloc(arena, n, sizeof *copy);
+    memcpy(copy, uvs, n * sizeof *copy);
+    free(uvs);
+    return copy;
+}
+
 const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *file, size_t faces)
 {
     const char *path = path_of(l, file);
@@ -184,19 +263,9 @@ const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *fi
     struct vec2 *known = map_get(&l->uv_lists, key);
     if (known)
         return known == &unreadable ? NULL : known;
-    const struct source *s = load_source(l, file, path, "UV list");
-    struct vec2 *uvs = NULL;
-    size_t first = l->diag->entries.n;
-    if (!s || !uv_list_parse(s, faces, &uvs, l->diag)) {
-        if (s)
-            lower_label_request(l, first, file);
-        map_set(&l->uv_lists, key, &unreadable);
-        return NULL;
-    }
-    size_t n = 3 * faces;
-    struct vec2 *kept = arena_zalloc(&l->scene->arena, n, sizeof *kept);
-    memcpy(kept, uvs, n * sizeof *kept);
-    free(uvs);
-    map_set(&l->uv_lists, key, kept);
-    return kept;
+    struct vec2 *uvs = l->kept ? map_get(&l->kept->lists, key) : NULL;
+    if (!uvs && (uvs = read_uv_list(l, file, path, faces)) && l->kept)
+        keep(l->kept, &l->kept->lists, key, uvs);
+    map_set(&l->uv_lists, key, uvs ? uvs : &unreadable);
+    return uvs;
 }

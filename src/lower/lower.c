@@ -85,12 +85,13 @@ static void note_unused(struct lowering *l)
     }
 }
 
-static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowered *out,
-                       bool copied, struct diag *diag)
+static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lower_files *kept,
+                       struct lowered *out, bool copied, struct diag *diag)
 {
-    *out = (struct lowered){0};
+    *out = (struct lowered){.borrowed = kept != NULL};
     out->scene.model = d->model == SCHEMA_MODERN ? SCENE_MODERN : SCENE_CLASSIC;
     struct lowering l = {
+        .kept = kept,
         .desc = d,
         .sources = sources,
         .out = out,
@@ -131,19 +132,27 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag)
 {
-    return lower_desc(d, sources, out, false, diag);
+    return lower_desc(d, sources, NULL, out, false, diag);
+}
+
+bool lower_scene_keeping(const struct desc *d, struct srcmap *sources, struct lower_files *files,
+                         struct lowered *out, struct diag *diag)
+{
+    return lower_desc(d, sources, files, out, false, diag);
 }
 
 bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,
                         struct diag *diag)
 {
-    return lower_desc(d, sources, out, true, diag);
+    return lower_desc(d, sources, NULL, out, true, diag);
 }
 
 void lower_free(struct lowered *l)
 {
-    for (size_t i = 0; i < l->meshes.n; i++)
+    for (size_t i = 0; i < l->meshes.n && !l->borrowed; i++)
         mesh_free(l->meshes.at[i].mesh);
+    if (l->borrowed)
+        l->scene.images.n = 0;
     vec_free(&l->meshes);
     scene_free(&l->scene);
 }

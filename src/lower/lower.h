@@ -17,9 +17,16 @@ struct lower_mesh {
     const struct diag_frame *frame; /* and how evaluation came to that */
 };
 
+/* Textures, meshes and UV lists that are kept from one scene to the next, by their paths: each is
+ * read once, when first needed. */
+struct lower_files;
+struct lower_files *lower_files_new(void);
+void lower_files_free(struct lower_files *f);
+
 struct lowered {
     struct scene scene;
     VEC(struct lower_mesh) meshes; /* each file once */
+    bool borrowed;                 /* meshes and images belong to a struct lower_files */
 };
 
 /* Lowers into *out (initialised here; free with lower_free even after errors).  Mesh files and UV
@@ -27,6 +34,10 @@ struct lowered {
  * were no errors. */
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag);
+
+/* The same with files that are kept, which must outlive the scene. */
+bool lower_scene_keeping(const struct desc *d, struct srcmap *sources, struct lower_files *files,
+                         struct lowered *out, struct diag *diag);
 
 /* The same with every use of a mesh a copy: for whoever cannot share one. */
 bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,

@@ -16,21 +16,29 @@ struct mesh_model {
     const struct triangle_corners *normal_corners;
 };
 
+struct lower_files {
+    struct arena arena;               /* owns paths and UV lists */
+    struct map images, meshes, lists; /* by path; UV lists by number of faces and path */
+    VEC(struct image *) all_images;
+    VEC(struct mesh *) all_meshes;
+};
+
 struct lowering {
+    struct lower_files *kept; /* or NULL */
     const struct desc *desc;
     struct srcmap *sources;
     struct lowered *out;
     struct scene *scene; /* &out->scene */
     struct diag *diag;
-    bool copied;           /* every use of a mesh is a copy */
-    uint32_t *material_of; /* scene material of each described one, or UINT32_MAX */
-    uint32_t *texture_of;  /* likewise, of textures that are light */
-    uint32_t *data_of;     /* of those that are normals */
+    bool copied;                      /* every use of a mesh is a copy */
+    uint32_t *material_of;            /* scene material of each described one, or UINT32_MAX */
+    uint32_t *texture_of;             /* likewise, of textures that are light */
+    uint32_t *data_of;                /* of those that are normals */
     const double *decode8, *decode16; /* see struct texture; NULL until needed */
-    struct map images;     /* path to struct image, decoded once */
-    struct map meshes;     /* path to its number in out->meshes + 1, as a pointer */
-    struct map models;     /* path and ratio to struct mesh_model */
-    struct map uv_lists;   /* path and number of faces to struct vec2 */
+    struct map images;                /* path to struct image, decoded once */
+    struct map meshes;                /* path to its number in out->meshes + 1, as a pointer */
+    struct map models;                /* path and ratio to struct mesh_model */
+    struct map uv_lists;              /* path and number of faces to struct vec2 */
 };
 
 /* ---- files.c ---- */

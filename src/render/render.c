@@ -3,6 +3,7 @@
 #include "render/adaptive.h"
 #include "render/samples.h"
 
+#include "accel/store.h"
 #include "base/thread.h"
 
 #include <stdatomic.h>
@@ -169,7 +170,7 @@ static uint32_t note_dark_lamps(struct tracer *t)
 static void build_accel(struct tracer *t)
 {
     const struct render_options *o = t->options;
-    struct accel_options build = {o->brute_force, o->isa, o->threads, NULL};
+    struct accel_options build = {o->brute_force, o->isa, o->threads, NULL, o->store};
     bool *twins =
         tracer_skips(t, SKIP_TWINS) ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
     t->twins = twins ? find_twins(t, twins) : 0;
@@ -213,7 +214,10 @@ void tracer_free(struct tracer *t)
     free(t->lamps);
     free(t->finishes);
     free(t->emissive);
-    accel_free(&t->accel);
+    if (t->options->store)
+        accel_store_keep(t->options->store, &t->accel);
+    else
+        accel_free(&t->accel);
 }
 
 static void add_stats(struct render_stats *sum, const struct render_stats *more)

@@ -27,6 +27,8 @@ struct render_watch {
     size_t tiles;                      /* that will be asked for in all; 0: the whole crop's */
 };
 
+struct accel_store;
+
 struct render_options {
     uint32_t width, height; /* of the whole picture */
     bool whole_view; /* it shows what the scene's own resolution does, whatever its proportions */
@@ -46,6 +48,7 @@ struct render_options {
     enum isa isa;     /* an available one: same bytes */
     struct render_progress progress; /* report may be NULL */
     struct render_watch watch;
+    struct accel_store *store; /* keeps the tree for the next scene; or NULL */
 };
 
 /* What is left out; see skips.def. */
