@@ -1,4 +1,5 @@
-"""A displaced sphere of any number of triangles, and a scene that shows it."""
+"""A displaced sphere of any number of triangles, a scene that shows it, and a displaced square for
+numbers too large for it."""
 import math
 
 GOLDEN = (1 + 5 ** 0.5) / 2
@@ -70,3 +71,20 @@ def write_scene(folder, n):
     with open(f"{folder}/scene.wrt", "w") as f:
         f.write(SCENE)
     return count
+
+
+def write_square(path, n):
+    """2 n^2 triangles, towards the camera of the scene."""
+    with open(path, "w") as f:
+        print(f"OFF\n{(n + 1) ** 2} {2 * n * n} 0", file=f)
+        for j in range(n + 1):
+            y = 2 * j / n - 1
+            across = [math.sin(17 * y + 1) * math.cos(5 * y), math.cos(61 * y)]
+            for i in range(n + 1):
+                x = 2 * i / n - 1
+                z = 0.1 * math.sin(7 * x) * across[0] + 0.01 * math.sin(57 * x) * across[1]
+                f.write("%.7g %.7g %.7g\n" % (x, y, z))
+        for j in range(n):
+            for a in range(j * (n + 1), j * (n + 1) + n):
+                f.write("3 %d %d %d\n3 %d %d %d\n" % (a, a + n + 1, a + 1, a + 1, a + n + 1, a + n + 2))
+    return 2 * n * n
