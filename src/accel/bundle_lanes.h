@@ -328,8 +328,7 @@ static inline unsigned meet_triangle_along(struct frame_batch *f, struct target 
         vreal rounding = f->tolerance * (v_load(f->reach + i) + tri->reach);
         vmask may = v_not(v_equal(v_load(f->rays->from + i), v_all(target.prim))) &
                     v_not(v_at_most(v_abs(distance), rounding));
-        if (v_any(may))
-            may &= meets_lines(f, i, seen, axis);
+        may &= meets_lines(f, i, seen, axis);
         if (!v_any(may))
             continue;
         vreal t = distance / speed;

@@ -4,164 +4,23 @@
 #include "accel/wide.h"
 
 #include "base/hash.h"
-#include "base/thread.h"
 #include "scene/fingerprint.h"
 
-#include <stdatomic.h>
 #include <string.h>
 
-/* Binned surface area heuristic (Wald, On fast construction of SAH-based bounding volume
- * hierarchies, 2007), all three axes at once. */
-enum {
-    BINS = 16,
-    LEAF_LIMIT = 4, /* larger runs are always split */
-    SAH_DEPTH = 60, /* deeper down runs are halved: at most 30 levels more */
-    TREE_LEAST = 5, /* fewer primitives are tried one after another */
-};
-
-/* Cost of visiting a node over that of testing a primitive. */
-#define NODE_COST 1.0
-
-/* A run of primitives that is to become the child of a node. */
-struct branch {
-    uint32_t parent, begin, end;
-    int child, depth;
-};
+enum { TREE_LEAST = 5 }; /* fewer primitives are tried one after another */
 
 struct builder {
     const struct geometry *geometry;
-    struct box *boxes;    /* by primitive */
-    struct vec3 *centers; /* of the boxes */
-    uint32_t *order;      /* primitives; runs of it become nodes */
-    struct bvh_node *nodes;
-    atomic_uint node_count;
-    bool wide;               /* a leaf of a wide tree is to come: so many triangles stay together */
-    uint32_t small;          /* branches of fewer are left for threads to share */
-    VEC(struct branch) left; /* those left */
+    struct sah *sah;
+    VEC(struct bvh_node) nodes;
 };
 
-struct bin {
-    struct box box;
-    uint32_t n;
-};
-
-/* How a run is split: before bin `bin` of the axis. */
-struct split {
-    double cost; /* of both sides: area times primitives */
-    int axis, bin;
-};
-
-struct binning {
-    struct vec3 lo, scale; /* bin = (center - lo) scale */
-};
-
-/* A run whose centers differ too little to be told apart gets a scale of 0 on that axis. */
-static struct binning binning_of(struct box centers)
-{
-    struct binning b = {centers.lo, {0, 0, 0}};
-    struct vec3 d = vec3_sub(centers.hi, centers.lo);
-    double most = BINS * (1 - 0x1p-40);
-    b.scale.x = d.x > 0 && most / d.x <= DBL_MAX ? most / d.x : 0;
-    b.scale.y = d.y > 0 && most / d.y <= DBL_MAX ? most / d.y : 0;
-    b.scale.z = d.z > 0 && most / d.z <= DBL_MAX ? most / d.z : 0;
-    return b;
-}
-
-static int bin_of(const struct binning *b, struct vec3 center, int axis)
-{
-    double x = (vec3_at(center, axis) - vec3_at(b->lo, axis)) * vec3_at(b->scale, axis);
-    return x >= BINS - 1 ? BINS - 1 : x > 0 ? (int)x : 0;
-}
-
-static void fill_bins(const struct builder *w, const struct binning *b, uint32_t begin,
-                      uint32_t end, struct bin bins[3][BINS])
-{
-    for (int axis = 0; axis < 3; axis++)
-        for (int i = 0; i < BINS; i++)
-            bins[axis][i] = (struct bin){box_empty(), 0};
-    for (uint32_t i = begin; i < end; i++) {
-        uint32_t prim = w->order[i];
-        for (int axis = 0; axis < 3; axis++) {
-            struct bin *bin = &bins[axis][bin_of(b, w->centers[prim], axis)];
-            bin->box = box_join(bin->box, w->boxes[prim]);
-            bin->n++;
-        }
-    }
-}
-
-/* Sweeps one axis from both ends. */
-static void best_of_axis(const struct bin bins[BINS], int axis, struct split *best)
-{
-    double above[BINS];
-    struct box box = box_empty();
-    uint32_t n = 0;
-    for (int i = BINS - 1; i > 0; i--) {
-        box = box_join(box, bins[i].box);
-        n += bins[i].n;
-        above[i] = n ? box_half_area(box) * n : INFINITY;
-    }
-    box = box_empty();
-    n = 0;
-    for (int i = 1; i < BINS; i++) {
-        box = box_join(box, bins[i - 1].box);
-        n += bins[i - 1].n;
-        double cost = n ? box_half_area(box) * n + above[i] : INFINITY;
-        if (cost < best->cost)
-            *best = (struct split){cost, axis, i};
-    }
-}
-
-static uint32_t partition(struct builder *w, const struct binning *b, const struct split *s,
-                          uint32_t begin, uint32_t end)
-{
-    while (begin < end) {
-        uint32_t prim = w->order[begin];
-        if (bin_of(b, w->centers[prim], s->axis) < s->bin) {
-            begin++;
-        } else {
-            w->order[begin] = w->order[--end];
-            w->order[end] = prim;
-        }
-    }
-    return begin;
-}
-
-static bool all_triangles(const struct builder *w, uint32_t begin, uint32_t end)
-{
-    for (uint32_t i = begin; i < end; i++)
-        if (w->geometry->prims.at[w->order[i]].kind != PRIM_TRIANGLE)
-            return false;
-    return true;
-}
-
-/* Where to split [begin, end), or `end` to leave it a leaf. */
-static uint32_t choose_split(struct builder *w, struct box box, uint32_t begin, uint32_t end,
-                             int depth)
-{
-    uint32_t n = end - begin, middle = begin + n / 2;
-    if (n == 1 || (w->wide && n <= WIDE && all_triangles(w, begin, end)))
-        return end;
-    if (depth >= SAH_DEPTH)
-        return n <= LEAF_LIMIT ? end : middle;
-    struct box centers = box_empty();
-    for (uint32_t i = begin; i < end; i++)
-        centers = box_add(centers, w->centers[w->order[i]]);
-    struct binning binning = binning_of(centers);
-    struct bin bins[3][BINS];
-    fill_bins(w, &binning, begin, end, bins);
-    struct split best = {INFINITY, 0, 0};
-    for (int axis = 0; axis < 3; axis++)
-        best_of_axis(bins[axis], axis, &best);
-    if (n <= LEAF_LIMIT && !(best.cost + NODE_COST * box_half_area(box) < n * box_half_area(box)))
-        return end;
-    return best.cost < INFINITY ? partition(w, &binning, &best, begin, end) : middle;
-}
-
-static struct box run_box(const struct builder *w, uint32_t begin, uint32_t end)
+static struct box run_box(const struct builder *b, const struct sah_run *run)
 {
     struct box box = box_empty();
-    for (uint32_t i = begin; i < end; i++)
-        box = box_join(box, w->boxes[w->order[i]]);
+    for (uint32_t i = run->begin; i < run->end; i++)
+        box = box_join(box, geometry_prim_bounds(b->geometry, sah_prim(&b->sah->refs[i])));
     return box;
 }
 
@@ -174,71 +33,40 @@ static void set_child(struct bvh_node *node, int child, struct box box, uint32_t
     node->count[child] = count;
 }
 
-/* Fills in one child of a node; recursion is at most BVH_DEPTH_LIMIT deep. */
-static void build_branch(struct builder *w, struct branch b)
+static struct box build_child(struct builder *b, uint32_t parent, int child,
+                              const struct sah_run *run);
+
+/* Returns the box around the node; recursion is at most BVH_DEPTH_LIMIT deep. */
+static struct box build_node(struct builder *b, const struct sah_run halves[2])
 {
-    if (b.end - b.begin < w->small) {
-        vec_push(&w->left, b);
-        return;
-    }
-    struct box box = run_box(w, b.begin, b.end);
-    uint32_t middle = b.begin < b.end ? choose_split(w, box, b.begin, b.end, b.depth) : b.end;
-    if (middle == b.end) {
-        set_child(&w->nodes[b.parent], b.child, box, b.begin, b.end - b.begin);
-        return;
-    }
-    uint32_t node = atomic_fetch_add_explicit(&w->node_count, 1, memory_order_relaxed);
-    set_child(&w->nodes[b.parent], b.child, box, node, 0);
-    build_branch(w, (struct branch){node, b.begin, middle, 0, b.depth + 1});
-    build_branch(w, (struct branch){node, middle, b.end, 1, b.depth + 1});
+    uint32_t number = (uint32_t)b->nodes.n;
+    vec_push(&b->nodes, (struct bvh_node){.count = {0}});
+    struct box box = build_child(b, number, 0, &halves[0]);
+    return box_join(box, build_child(b, number, 1, &halves[1]));
 }
 
-static void build_left(void *context, size_t item, unsigned worker)
+static struct box build_child(struct builder *b, uint32_t parent, int child,
+                              const struct sah_run *run)
 {
-    struct builder *w = context;
-    (void)worker;
-    build_branch(w, w->left.at[item]);
+    struct sah_run halves[2];
+    bool cut = sah_split(b->sah, run, halves);
+    uint32_t first = cut ? (uint32_t)b->nodes.n : run->begin;
+    struct box box = cut ? build_node(b, halves) : run_box(b, run);
+    set_child(&b->nodes.at[parent], child, box, first, cut ? 0 : run->end - run->begin);
+    return box;
 }
 
-/* Above this many primitives threads pay. */
-enum { SHARED_LEAST = 10000, SHARES = 8 /* a thread */ };
-
-static void build_nodes(struct builder *w, uint32_t n, unsigned threads)
+/* So many primitives as make a tree are always cut. */
+static void build_nodes(struct accel *a, struct sah *sah, const struct sah_run *all)
 {
-    struct box all = run_box(w, 0, n);
-    w->nodes = mem_alloc_aligned(n + 1, sizeof *w->nodes);
-    w->node_count = 1;
-    w->small = threads > 1 && n >= SHARED_LEAST ? n / (SHARES * threads) : 0;
-    uint32_t middle = n > 1 ? choose_split(w, all, 0, n, 0) : n;
-    set_child(&w->nodes[0], 1, box_empty(), 0, 0);
-    build_branch(w, (struct branch){0, 0, middle, 0, 1});
-    if (middle < n)
-        build_branch(w, (struct branch){0, middle, n, 1, 1});
-    w->small = 0;
-    thread_share(w->left.n, threads, build_left, w);
-    vec_free(&w->left);
-}
-
-static void find_boxes(void *context, size_t item, unsigned worker)
-{
-    struct builder *w = context;
-    uint32_t n = (uint32_t)w->geometry->prims.n;
-    (void)worker;
-    for (size_t i = item * SHARED_LEAST; i < n && i < (item + 1) * SHARED_LEAST; i++) {
-        w->order[i] = (uint32_t)i;
-        w->boxes[i] = geometry_prim_bounds(w->geometry, (uint32_t)i);
-        w->centers[i] = box_center(w->boxes[i]);
-    }
-}
-
-/* How many are left. */
-static uint32_t leave_out(uint32_t *order, uint32_t n, const bool *spare)
-{
-    uint32_t left = 0;
-    for (uint32_t i = 0; i < n; i++)
-        if (!spare[order[i]])
-            order[left++] = order[i];
-    return left;
+    struct builder b = {.geometry = a->geometry, .sah = sah};
+    struct sah_run halves[2];
+    if (sah_split(sah, all, halves))
+        build_node(&b, halves);
+    for (uint32_t i = 0; i < a->target_count; i++)
+        a->targets[i] = target_of(a->geometry, sah_prim(&sah->refs[i]));
+    a->nodes = b.nodes.at;
+    a->node_count = (uint32_t)b.nodes.n;
 }
 
 /* Only those are ever walked that some instance takes whole. */
@@ -256,34 +84,50 @@ static struct accel *build_prototypes(const struct geometry *g, const struct acc
     return a;
 }
 
-static void build_tree(struct accel *a, const struct geometry *geometry,
-                       const struct accel_options *options)
+static void build_tree(struct accel *a, const struct accel_options *options)
 {
-    uint32_t n = (uint32_t)geometry->prims.n;
-    struct builder w = {.geometry = geometry,
-                        .boxes = mem_alloc(n, sizeof *w.boxes),
-                        .centers = mem_alloc(n, sizeof *w.centers),
-                        .order = mem_alloc(n, sizeof *w.order),
-                        .wide = options->isa != ISA_PLAIN};
-    thread_share((n + SHARED_LEAST - 1) / SHARED_LEAST, options->threads, find_boxes, &w);
-    if (options->spare)
-        n = leave_out(w.order, n, options->spare);
-    struct box all = run_box(&w, 0, n);
-    if (!options->brute_force && n >= TREE_LEAST)
-        build_nodes(&w, n, options->threads);
-    *a = (struct accel){.geometry = geometry,
-                        .targets = mem_alloc(n, sizeof *a->targets),
-                        .target_count = n,
-                        .nodes = w.nodes,
-                        .node_count = w.node_count,
-                        .reach = n ? fmax(vec3_largest(all.lo), vec3_largest(all.hi)) : 0,
-                        .padding = BOX_PADDING * (1 + geometry->worst_growth)};
+    bool vectors = wide_kernels_of(options->isa) != NULL;
+    struct sah sah;
+    struct sah_run all = sah_init(&sah, a->geometry, a->targets, a->target_count,
+                                  vectors ? WIDE : 1, options->threads);
+    a->reach = fmax(vec3_largest(sah.bounds.lo), vec3_largest(sah.bounds.hi));
+    if (vectors)
+        a->wide = wide_build(a, &sah, &all, options->isa, options->threads);
+    else
+        build_nodes(a, &sah, &all);
+    sah_free(&sah);
+}
+
+/* All primitives but those that can be spared, in the order of the file. */
+static void list_targets(struct accel *a, const bool *spare)
+{
+    uint32_t n = (uint32_t)a->geometry->prims.n;
+    a->targets = mem_alloc(n, sizeof *a->targets);
     for (uint32_t i = 0; i < n; i++)
-        a->targets[i] = target_of(geometry, w.order[i]);
-    a->wide = wide_build(a, options->isa, options->threads);
-    free(w.boxes);
-    free(w.centers);
-    free(w.order);
+        if (!spare || !spare[i])
+            a->targets[a->target_count++] = target_of(a->geometry, i);
+}
+
+static double reach_of_targets(const struct accel *a)
+{
+    double reach = 0;
+    for (uint32_t i = 0; i < a->target_count; i++) {
+        struct box b = geometry_prim_bounds(a->geometry, a->targets[i].prim);
+        reach = fmax(reach, fmax(vec3_largest(b.lo), vec3_largest(b.hi)));
+    }
+    return reach;
+}
+
+static void build(struct accel *a, const struct geometry *geometry,
+                  const struct accel_options *options)
+{
+    *a =
+        (struct accel){.geometry = geometry, .padding = BOX_PADDING * (1 + geometry->worst_growth)};
+    list_targets(a, options->spare);
+    if (!options->brute_force && a->target_count >= TREE_LEAST)
+        build_tree(a, options);
+    else
+        a->reach = reach_of_targets(a);
 }
 
 static uint64_t fingerprint_of(const struct geometry *g, const bool *spare)
@@ -298,7 +142,7 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
     struct accel_store *store = options->store;
     uint64_t fingerprint = store ? fingerprint_of(geometry, options->spare) : 0;
     if (!store || !accel_store_take(store, fingerprint, a))
-        build_tree(a, geometry, options);
+        build(a, geometry, options);
     a->geometry = geometry;
     a->fingerprint = fingerprint;
     a->prototypes = build_prototypes(geometry, options);

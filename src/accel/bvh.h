@@ -17,16 +17,17 @@ struct bvh_node {
     uint32_t count[2];     /* 0: a node; else the length of the run */
 };
 
+/* Without nodes of either kind every primitive is tried. */
 struct accel {
     const struct geometry *geometry; /* borrowed */
     struct target *targets;          /* all primitives, leaf by leaf */
     uint32_t target_count;
-    struct bvh_node *nodes; /* root first; NULL: every primitive is tried */
+    struct bvh_node *nodes; /* root first, or NULL */
     uint32_t node_count;
     double reach;             /* largest |coordinate| of the geometry's bounds */
     double padding;           /* BOX_PADDING, times what instances add to rounding errors */
     struct accel *prototypes; /* one for each of the geometry's; NULL: there are none */
-    struct wide *wide;        /* the nodes made ready for vector code, or NULL */
+    struct wide *wide;        /* in place of the nodes for vector code, or NULL */
     uint64_t fingerprint;     /* of what it was built of; with a store only */
 };
 

@@ -9,6 +9,9 @@
  * of a leaf; so are the smaller pyramids of each part of the batch.  What is left out no ray can
  * meet; for what remains meet_triangle decides.
  *
+ * Rays from or to one point, the apex, are held by ranges of slopes x / k and y / k as seen from
+ * there; parts of the batch and triangles overlap in these or not.
+ *
  * Any slopes will do, as the bounds are taken from the rays' ends; good ones are those of the
  * outermost rays.  Everything is widened by `padding`: that of the boxes, which holds the rounding
  * errors of hits, and as much again for those of the planes: some 2^-50 of the coordinates
@@ -29,6 +32,12 @@ struct range {
     double lo, hi;
 };
 
+/* Slopes of rays or triangles side by side, as seen from the apex, and the way from it along k. */
+struct aspects {
+    alignas(32) float least[2][WIDE], most[2][WIDE]; /* of x and y */
+    alignas(32) float way[WIDE]; /* of triangles, their nearest corner's; of rays, the farthest */
+};
+
 struct packet {
     const struct accel *accel;
     struct frame_batch *frames;
@@ -37,10 +46,16 @@ struct packet {
     bool converge; /* towards a common end, not from a common origin */
     bool endless;
     bool any;              /* a ray ends at the first hit found */
-    bool parted;           /* `part` is made: once a leaf is reached */
+    bool parted;           /* `part` or `aspects` are made: once a leaf is reached */
+    bool has_apex;         /* all rays start there, or would end there at t = 1 */
+    bool ahead;            /* k grows on the way from the apex */
+    double apex[3];        /* along x, y and k */
     struct range start[3]; /* of the origins, along x, y and k */
     double padding, near;
     struct pyramid whole, part[PARTS];
+    struct aspects aspects;  /* of the parts, where there is an apex */
+    struct pyramid in_frame; /* the whole one in the frame of the tree's boxes */
+    double near_in_frame;
     alignas(64) double slope[2][BATCH_ROOM]; /* x and y over k */
     alignas(64) double end[3][BATCH_ROOM];   /* unless endless */
 };
@@ -114,6 +129,24 @@ static struct wedge wedge_around(const struct packet *p, int side, uint32_t firs
     return w;
 }
 
+/* A distance along k in the tree's frame. */
+static double along_in_frame(const struct packet *p, double k)
+{
+    const struct tree_frame *f = &p->accel->wide->frame;
+    double center = f->center[p->axis[2]];
+    return (k - (p->down ? -center : center)) * f->scale;
+}
+
+static struct wedge wedge_in_frame(const struct packet *p, int side)
+{
+    const struct tree_frame *f = &p->accel->wide->frame;
+    struct wedge w = p->whole.side[side];
+    double x = f->center[p->axis[side]], k = f->center[p->axis[2]];
+    for (int i = 0; i < 2; i++)
+        w.bound[i] = (w.bound[i] - (x - w.slope[i] * k)) * f->scale;
+    return w;
+}
+
 /* How far along k a part's rays can still hit; those with a hit no more, where any counts. */
 static double farthest_along(const struct packet *p, uint32_t first)
 {
@@ -132,16 +165,60 @@ static double farthest_along(const struct packet *p, uint32_t first)
     return v_most(far) + p->padding;
 }
 
+/* How far from the apex a part's rays can still hit something. */
+static float farthest_way(const struct packet *p, uint32_t first)
+{
+    const struct frame_batch *f = p->frames;
+    const double *d = along(&f->rays->direction, p->axis[2]);
+    vreal far = v_all(-INFINITY);
+    for (uint32_t i = first; i < first + PART && i < f->n; i += LANES) {
+        vreal way = v_abs(lanes_of(p, d, i));
+        if (f->rays->common_origin)
+            way *= lanes_of(p, f->hits->t, i);
+        if (p->any)
+            way = v_select(v_less(lanes_of(p, f->hits->prim, i), v_all(PRIM_NONE)),
+                           v_all(-INFINITY), way);
+        far = v_max(way, far);
+    }
+    return float_above((v_most(far) + p->padding) * (1 + FLOAT_SLACK));
+}
+
 /* After hits of these parts. */
 static void find_farthest(struct packet *p, unsigned parts)
 {
     for (; parts; parts &= parts - 1) {
         unsigned j = (unsigned)__builtin_ctz(parts);
         p->part[j].far = farthest_along(p, PART * j);
+        if (p->has_apex)
+            p->aspects.way[j] = farthest_way(p, PART * j);
     }
     p->whole.far = -INFINITY;
     for (uint32_t j = 0; PART * j < p->frames->n; j++)
         p->whole.far = p->part[j].far > p->whole.far ? p->part[j].far : p->whole.far;
+    p->in_frame.far = along_in_frame(p, p->whole.far);
+}
+
+/* Slopes are widened by this, and this much of themselves: more than what floats and the padding
+ * make of those of triangles that are farther from the apex than so many paddings. */
+#define SLOPE_SLACK 0x1p-18f
+#define NEAR_APEX 0x1p20
+
+static void make_aspects(struct packet *p)
+{
+    for (uint32_t j = 0; j < PARTS; j++) {
+        for (int side = 0; side < 2; side++) {
+            vreal least = v_all(INFINITY), most = v_all(-INFINITY);
+            for (uint32_t i = PART * j; i < PART * j + PART && i < p->frames->n; i += LANES) {
+                vreal slope = lanes_of(p, p->slope[side], i);
+                least = v_min(slope, least);
+                most = v_max(slope, most);
+            }
+            float lo = (float)v_least(least), hi = (float)v_most(most);
+            p->aspects.least[side][j] = lo - (fabsf(lo) * SLOPE_SLACK + SLOPE_SLACK);
+            p->aspects.most[side][j] = hi + (fabsf(hi) * SLOPE_SLACK + SLOPE_SLACK);
+        }
+    }
+    p->parted = true;
 }
 
 static void make_parts(struct packet *p)
@@ -177,6 +254,25 @@ static bool find_axis(struct packet *p)
             return false;
     }
     return best > 0 && best * 16 >= largest;
+}
+
+/* Whether all rays start, or would end, at one point. */
+static void find_apex(struct packet *p)
+{
+    const struct ray_batch *rays = p->frames->rays;
+    p->has_apex = rays->common_origin || range_of(p, rays->t_max).hi <= 1;
+    p->ahead = p->down != rays->common_origin;
+    for (int side = 0; side < 3 && p->has_apex; side++) {
+        const double *o = along(&rays->origin, p->axis[side]);
+        const double *d = along(&rays->direction, p->axis[side]);
+        p->apex[side] = rays->common_origin ? o[0] : o[0] + d[0];
+        if (rays->common_origin)
+            continue;
+        for (uint32_t i = 0; i < p->frames->n; i += LANES)
+            p->has_apex &=
+                !v_any(v_less(v_all(0.25 * p->padding),
+                              v_abs(lanes_of(p, o, i) + lanes_of(p, d, i) - v_all(p->apex[side]))));
+    }
 }
 
 /* Where the rays start and end. */
@@ -225,13 +321,16 @@ static bool packet_init(struct packet *p)
     if (!find_axis(p))
         return false;
     find_ends(p);
+    find_apex(p);
     find_slopes(p);
     for (int side = 0; side < 2; side++) {
         struct wedge *w = &p->whole.side[side];
         *w = wedge_around(p, side, 0, f->n);
         if (!(fabs(w->slope[1] - w->slope[0]) <= WIDEST_WEDGE))
             return false;
+        p->in_frame.side[side] = wedge_in_frame(p, side);
     }
+    p->near_in_frame = along_in_frame(p, p->near);
     p->parted = false;
     find_farthest(p, parts_of_rays(f));
     return true;
@@ -244,26 +343,27 @@ static inline vmask box_outside(const struct wedge *w, const struct wide_node *n
                                 int i)
 {
     double low = w->slope[0], high = w->slope[1];
-    vreal most =
-        v_bound(v_all(-low), v_load(node->plane[low < 0][k] + i), v_load(node->plane[1][x] + i));
-    vreal least =
-        v_bound(v_all(-high), v_load(node->plane[high > 0][k] + i), v_load(node->plane[0][x] + i));
+    vreal most = v_bound(v_all(-low), v_load_floats(node->plane[low < 0][k] + i),
+                         v_load_floats(node->plane[1][x] + i));
+    vreal least = v_bound(v_all(-high), v_load_floats(node->plane[high > 0][k] + i),
+                          v_load_floats(node->plane[0][x] + i));
     return v_less(most, v_all(w->bound[0])) | v_less(v_all(w->bound[1]), least);
 }
 
 /* The children that the pyramid may touch, and how far along k they begin. */
 static inline unsigned touched_children(const struct packet *p, const struct wide_node *node,
-                                        double *enter)
+                                        float *enter)
 {
     unsigned touched = 0;
     for (int i = 0; i < WIDE; i += LANES) {
         int k = p->axis[2];
-        vreal lo = v_load(node->plane[0][k] + i), hi = v_load(node->plane[1][k] + i);
+        vreal lo = v_load_floats(node->plane[0][k] + i), hi = v_load_floats(node->plane[1][k] + i);
         vreal begin = p->down ? -hi : lo, end = p->down ? -lo : hi;
-        vmask outside = box_outside(&p->whole.side[0], node, p->axis[0], k, i) |
-                        box_outside(&p->whole.side[1], node, p->axis[1], k, i) |
-                        v_less(v_all(p->whole.far), begin) | v_less(end, v_all(p->near));
-        v_store(enter + i, begin);
+        vmask outside = box_outside(&p->in_frame.side[0], node, p->axis[0], k, i) |
+                        box_outside(&p->in_frame.side[1], node, p->axis[1], k, i) |
+                        v_less(v_all(p->in_frame.far), begin) |
+                        v_less(end, v_all(p->near_in_frame));
+        v_store_floats(enter + i, begin);
         touched |= v_bits(v_not(outside)) << i;
     }
     return touched;
@@ -308,6 +408,66 @@ static inline unsigned touched_triangles(const struct pyramid *y, const struct v
     vmask outside = corners_outside(&y->side[0], c, 0) | corners_outside(&y->side[1], c, 1) |
                     v_less(v_all(y->far), c->begin);
     return v_bits(v_not(outside));
+}
+
+static void find_aspects(const struct packet *p, const struct triangle_block *block,
+                         struct aspects *seen)
+{
+    for (int i = 0; i < WIDE; i += FLOATS) {
+        vfloat way[3], least = f_all(INFINITY), most = f_all(-INFINITY);
+        for (int v = 0; v < 3; v++)
+            way[v] = f_difference(block->corner[v][p->axis[2]] + i, p->apex[2]);
+        for (int v = 0; v < 3; v++) {
+            least = f_min(way[v], least);
+            most = f_max(way[v], most);
+        }
+        f_store(seen->way + i, p->ahead ? least : -most);
+        for (int side = 0; side < 2; side++) {
+            least = f_all(INFINITY), most = f_all(-INFINITY);
+            for (int v = 0; v < 3; v++) {
+                const double *x = block->corner[v][p->axis[side]] + i;
+                vfloat slope = f_difference(x, p->apex[side]) / way[v];
+                least = f_min(slope, least);
+                most = f_max(slope, most);
+            }
+            f_store(seen->least[side] + i, least);
+            f_store(seen->most[side] + i, most);
+        }
+    }
+}
+
+/* The parts (bit j: part j) that a triangle overlaps. */
+static inline unsigned overlapped_parts(const struct packet *p, const struct aspects *seen, int i)
+{
+    const struct aspects *parts = &p->aspects;
+    unsigned overlapped = 0;
+    if (seen->way[i] <= (float)(NEAR_APEX * p->padding))
+        return ALL_PARTS;
+    for (int j = 0; j < PARTS; j += FLOATS) {
+        unsigned part = f_at_most(f_all(seen->way[i]), f_load(parts->way + j));
+        for (int side = 0; side < 2; side++)
+            part &= f_at_most(f_all(seen->least[side][i]), f_load(parts->most[side] + j)) &
+                    f_at_most(f_load(parts->least[side] + j), f_all(seen->most[side][i]));
+        overlapped |= part << j;
+    }
+    return overlapped;
+}
+
+/* Returns the parts that met something. */
+static unsigned meet_seen_block(struct packet *p, const struct triangle_block *block,
+                                unsigned count)
+{
+    struct aspects seen;
+    unsigned met = 0;
+    if (!p->parted)
+        make_aspects(p);
+    find_aspects(p, block, &seen);
+    for (unsigned i = 0; i < count; i++) {
+        unsigned parts = overlapped_parts(p, &seen, (int)i) & parts_of_rays(p->frames);
+        if (parts)
+            met |= meet_triangle(p->frames, block->target[i], parts);
+    }
+    return met;
 }
 
 /* Returns the parts that met something. */
@@ -360,18 +520,20 @@ static void walk_packet(struct packet *p)
 {
     const struct wide *wide = p->accel->wide;
     struct wide_pending stack[WIDE_STACK], *top = stack;
-    alignas(64) double enter[WIDE];
-    *top++ = (struct wide_pending){p->near, {0, WIDE_NODE, 0}};
+    alignas(32) float enter[WIDE];
+    *top++ = (struct wide_pending){{0, WIDE_NODE, 0}, -INFINITY};
     while (top > stack) {
         top--;
         struct wide_child at = top->child;
-        if (top->enter > p->whole.far)
+        if (top->enter > p->in_frame.far)
             continue;
         if (at.kind == WIDE_NODE) {
             const struct wide_node *node = &wide->nodes[at.first];
             top = push_sorted(top, node, touched_children(p, node, enter), enter);
         } else if (at.kind == WIDE_TRIANGLES) {
-            unsigned met = meet_block(p, &wide->blocks[at.first], at.count);
+            const struct triangle_block *block = &wide->blocks[at.first];
+            unsigned met =
+                p->has_apex ? meet_seen_block(p, block, at.count) : meet_block(p, block, at.count);
             if (met)
                 find_farthest(p, met);
         } else if (at.count > 0) {

@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "accel/shaft.h"
+#include "accel/wide.h"
 
 /* Far more than the rounding errors of the shaft's own arithmetic and a box's padding together:
  * this many times the latter. */
@@ -128,16 +129,16 @@ bool shaft_touches(const struct accel *a, const struct shaft *s, struct target t
     return target.kind != PRIM_TRIANGLE || s->endless || crosses_plane(a, s, target.index);
 }
 
-static bool add_run(const struct accel *a, const struct shaft *s, uint32_t first, uint32_t count,
-                    struct target_list *list)
+static bool add_run(const struct accel *a, const struct shaft *s, const struct target *run,
+                    uint32_t count, struct target_list *list)
 {
-    for (uint32_t i = first; i < first + count; i++) {
-        if (!shaft_touches(a, s, a->targets[i]))
+    for (uint32_t i = 0; i < count; i++) {
+        if (!shaft_touches(a, s, run[i]))
             continue;
-        if (list->n == TARGET_LIST_LIMIT || a->targets[i].kind == PRIM_INSTANCE)
+        if (list->n == TARGET_LIST_LIMIT || run[i].kind == PRIM_INSTANCE)
             return false;
         list->nearest[list->n] = 0;
-        list->at[list->n++] = a->targets[i];
+        list->at[list->n++] = run[i];
     }
     return true;
 }
@@ -153,7 +154,58 @@ static bool add_tree(const struct accel *a, const struct shaft *s, struct target
                 continue;
             if (node->count[child] == 0)
                 stack[depth++] = node->first[child];
-            else if (!add_run(a, s, node->first[child], node->count[child], list))
+            else if (!add_run(a, s, a->targets + node->first[child], node->count[child], list))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* The shaft in the frame of a wide tree. */
+static struct shaft shaft_in_frame(const struct shaft *s, const struct tree_frame *f)
+{
+    struct shaft inner = *s;
+    for (int axis = 0; axis < 3; axis++) {
+        inner.lo[axis] = (s->lo[axis] - f->center[axis]) * f->scale;
+        inner.hi[axis] = (s->hi[axis] - f->center[axis]) * f->scale;
+    }
+    inner.t_max = s->t_max * f->scale;
+    return inner;
+}
+
+static bool touches_child(const struct shaft *inner, const struct wide_node *node, int i)
+{
+    double lo[3], hi[3];
+    for (int axis = 0; axis < 3; axis++) {
+        lo[axis] = node->plane[0][axis][i];
+        hi[axis] = node->plane[1][axis][i];
+    }
+    return touches_box(inner, lo, hi);
+}
+
+static bool add_leaf(const struct accel *a, const struct shaft *s, struct wide_child leaf,
+                     struct target_list *list)
+{
+    if (leaf.kind == WIDE_RUN)
+        return add_run(a, s, a->targets + leaf.first, leaf.count, list);
+    return add_run(a, s, a->wide->blocks[leaf.first].target, leaf.count, list);
+}
+
+static bool add_wide(const struct accel *a, const struct shaft *s, struct target_list *list)
+{
+    struct shaft inner = shaft_in_frame(s, &a->wide->frame);
+    uint32_t stack[WIDE_STACK] = {0};
+    int depth = 1;
+    while (depth > 0) {
+        const struct wide_node *node = &a->wide->nodes[stack[--depth]];
+        for (int i = 0; i < WIDE; i++) {
+            struct wide_child child = node->child[i];
+            bool there = child.kind == WIDE_NODE || child.count > 0;
+            if (!there || !touches_child(&inner, node, i))
+                continue;
+            if (child.kind == WIDE_NODE)
+                stack[depth++] = child.first;
+            else if (!add_leaf(a, s, child, list))
                 return false;
         }
     }
@@ -163,7 +215,12 @@ static bool add_tree(const struct accel *a, const struct shaft *s, struct target
 void shaft_list(const struct accel *a, const struct shaft *s, struct target_list *list)
 {
     list->n = 0;
-    list->usable = a->nodes ? add_tree(a, s, list) : add_run(a, s, 0, a->target_count, list);
+    if (a->wide)
+        list->usable = add_wide(a, s, list);
+    else if (a->nodes)
+        list->usable = add_tree(a, s, list);
+    else
+        list->usable = add_run(a, s, a->targets, a->target_count, list);
 }
 
 void shaft_narrow(const struct accel *a, const struct shaft *s, const struct target_list *from,

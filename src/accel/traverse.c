@@ -144,7 +144,7 @@ static bool any_in_tree(const struct accel *a, const struct ray *ray, const stru
 static bool find(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
                  bool any_hit, struct hit *hit)
 {
-    if (!a->nodes)
+    if (!a->nodes && !a->wide)
         return try_run(a, 0, a->target_count, ray, frame, any_hit, hit) || hit->prim != PRIM_NONE;
     if (any_hit)
         return a->wide ? a->wide->kernels->any(a, ray, frame, hit)

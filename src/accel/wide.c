@@ -4,161 +4,236 @@
 
 #include "base/thread.h"
 
-/* One wide node to be: its children, and whose boxes they have: child source % 2 of the accel's
- * node source / 2. */
-struct plan {
-    uint32_t n;
-    uint32_t source[WIDE];
-    struct wide_child child[WIDE];
-};
+#include <string.h>
 
-struct run {
+/* Triangles of a leaf: targets first to first + count. */
+struct leaf {
     uint32_t first, count;
 };
 
-struct planner {
-    const struct accel *accel;
-    VEC(struct plan) plans; /* root first */
-    VEC(struct run) blocks;
+/* A binary tree first, of which forests become the children of nodes. */
+enum twig_kind {
+    TWIG_LEAF,
+    TWIG_FORK, /* of two twigs */
+    TWIG_LEFT, /* for threads to share */
 };
 
-struct filling {
-    const struct planner *planner;
+struct twig {
+    struct sah_run run;
+    enum twig_kind kind;
+    uint32_t fork[2]; /* numbers in the part; TWIG_LEFT: of the branch */
+    /* The least that it and all below can cost as so many children of a node and one, or fewer. */
+    float cost[WIDE];
+};
+
+/* A run that becomes a child of one of the first part's nodes. */
+struct branch {
+    struct sah_run run;
+    uint32_t node;
+    int child;
+};
+
+/* What one thread builds in one go: numbers are those within the part, but for targets. */
+struct part {
+    VEC(struct twig) twigs;
+    VEC(struct wide_node) nodes; /* root first */
+    VEC(struct leaf) leaves;
+    uint32_t first_node, first_leaf; /* of the part among all */
+};
+
+struct builder {
+    struct sah *sah;
+    uint32_t small;          /* branches of fewer primitives are left for threads to share */
+    VEC(struct branch) left; /* those left */
+    struct part *parts;      /* the first, and one for each branch left */
+    const struct accel *accel;
     struct wide *wide;
 };
 
-/* ---- which nodes ----------------------------------------------------------------------------- */
+/* ---- a binary tree ----------------------------------------------------------------------------
+ */
 
-static uint32_t first_of(const struct accel *a, uint32_t source)
+/* Cost of a leaf over that of a node, for rays that meet its box. */
+#define LEAF_COST 1.5f
+
+/* How many of n > 1 children a fork's first twig had better become, and what all of them cost. */
+static int best_share(const struct part *p, const struct twig *t, int n, float *cost)
 {
-    return a->nodes[source / 2].first[source % 2];
+    const struct twig *a = &p->twigs.at[t->fork[0]], *b = &p->twigs.at[t->fork[1]];
+    int best = 1;
+    *cost = INFINITY;
+    for (int k = 1; k < n; k++) {
+        float sum = a->cost[k - 1] + b->cost[n - k - 1];
+        best = sum < *cost ? k : best;
+        *cost = sum < *cost ? sum : *cost;
+    }
+    return best;
 }
 
-/* 0: it is a node. */
-static uint32_t count_of(const struct accel *a, uint32_t source)
+/* Wald, Benthin, Boulos, Getting rid of packets, 2008, have the idea; the recurrence is that of
+ * Ylitie, Karras, Laine, Efficient incoherent ray traversal on GPUs, 2017. */
+static void find_costs(const struct part *p, struct twig *t)
 {
-    return a->nodes[source / 2].count[source % 2];
+    float area = sah_area(&t->run.box), cost = area * LEAF_COST;
+    if (t->kind == TWIG_FORK) {
+        best_share(p, t, WIDE, &cost);
+        cost += area;
+    }
+    t->cost[0] = cost;
+    for (int n = 2; n <= WIDE; n++) {
+        if (t->kind == TWIG_FORK)
+            best_share(p, t, n, &cost);
+        t->cost[n - 1] = cost < t->cost[0] ? cost : t->cost[0];
+    }
 }
 
-static double area_of(const struct accel *a, uint32_t source)
+/* Returns the twig's number in the part; recursion is at most BVH_DEPTH_LIMIT deep. */
+static uint32_t grow(struct builder *b, struct part *p, const struct sah_run *run)
 {
-    const double(*b)[3] = a->nodes[source / 2].plane[source % 2];
-    return box_half_area(
-        (struct box){vec3(b[0][0], b[0][1], b[0][2]), vec3(b[1][0], b[1][1], b[1][2])});
+    struct twig t = {.run = *run, .kind = TWIG_LEAF};
+    struct sah_run halves[2];
+    if (run->end - run->begin < b->small) {
+        t.kind = TWIG_LEFT;
+        t.fork[0] = (uint32_t)b->left.n;
+        vec_push(&b->left, (struct branch){.run = *run});
+    } else if (sah_split(b->sah, run, halves)) {
+        t.kind = TWIG_FORK;
+        t.fork[0] = grow(b, p, &halves[0]);
+        t.fork[1] = grow(b, p, &halves[1]);
+    }
+    find_costs(p, &t);
+    vec_push(&p->twigs, t);
+    return (uint32_t)p->twigs.n - 1;
 }
 
-static bool all_triangles(const struct accel *a, uint32_t first, uint32_t count)
-{
-    for (uint32_t i = first; i < first + count; i++)
-        if (a->targets[i].kind != PRIM_TRIANGLE)
-            return false;
-    return true;
-}
+/* ---- nodes of eight children ------------------------------------------------------------------
+ */
 
-/* How many primitives there are; more than `room` when they are more, or not all triangles. */
-static uint32_t triangles_in(const struct accel *a, uint32_t source, uint32_t room)
-{
-    uint32_t first = first_of(a, source), count = count_of(a, source);
-    if (count > 0)
-        return all_triangles(a, first, count) ? count : room + 1;
-    uint32_t n = triangles_in(a, 2 * first, room);
-    return n > room ? n : n + triangles_in(a, 2 * first + 1, room - n);
-}
+struct children {
+    int n;
+    uint32_t twig[WIDE];
+};
 
-/* The first of the targets of a child and all below. */
-static uint32_t first_target(const struct accel *a, uint32_t source)
+/* Adds the twig, or the cheapest forest of up to n of its parts. */
+static void add_forest(const struct part *p, uint32_t number, int n, bool open, struct children *c)
 {
-    while (count_of(a, source) == 0)
-        source = 2 * first_of(a, source);
-    return first_of(a, source);
-}
-
-/* The second child of a root whose first holds everything: no node is a child of itself. */
-static bool is_nothing(const struct accel *a, uint32_t source)
-{
-    return count_of(a, source) == 0 && first_of(a, source) == 0;
-}
-
-/* Children still to be opened, the others negative. */
-static double worth_opening(const struct accel *a, uint32_t source)
-{
-    if (count_of(a, source) > 0 || triangles_in(a, source, WIDE) <= WIDE)
-        return -1;
-    return area_of(a, source);
-}
-
-/* The descendants that take the place of a node's two children: the largest are replaced by theirs
- * until there are enough. */
-static uint32_t open_children(const struct accel *a, uint32_t node, uint32_t source[WIDE])
-{
-    double worth[WIDE];
-    uint32_t n = 0, open = node;
-    for (uint32_t place = 0;;) {
-        for (uint32_t child = 0; child < 2 && !is_nothing(a, 2 * open + child); child++) {
-            uint32_t at = child == 0 ? place : n;
-            source[at] = 2 * open + child;
-            worth[at] = worth_opening(a, source[at]);
-            n += at == n;
+    const struct twig *t = &p->twigs.at[number];
+    float cost;
+    if (t->kind == TWIG_FORK && n > 1) {
+        int k = best_share(p, t, n, &cost);
+        if (open || cost < t->cost[0]) {
+            add_forest(p, t->fork[0], k, false, c);
+            add_forest(p, t->fork[1], n - k, false, c);
+            return;
         }
-        for (uint32_t i = place = 0; i < n; i++)
-            place = worth[i] > worth[place] ? i : place;
-        if (n == 0 || n == WIDE || !(worth[place] >= 0))
-            return n;
-        open = first_of(a, source[place]);
+    }
+    c->twig[c->n++] = number;
+}
+
+static void set_planes(struct wide_node *node, int child, const struct sah_box *box)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        node->plane[0][axis][child] = box->lo[axis];
+        node->plane[1][axis][child] = box->hi[axis];
     }
 }
 
-static uint32_t plan_node(struct planner *p, uint32_t node);
-
-static struct wide_child plan_child(struct planner *p, uint32_t source)
+static struct wide_child leaf_of(struct builder *b, struct part *p, const struct sah_run *run)
 {
-    const struct accel *a = p->accel;
-    uint32_t triangles = triangles_in(a, source, WIDE), count = count_of(a, source);
-    if (triangles <= WIDE) {
-        vec_push(&p->blocks, (struct run){first_target(a, source), triangles});
-        return (struct wide_child){(uint32_t)p->blocks.n - 1, WIDE_TRIANGLES, triangles};
-    }
-    if (count > 0)
-        return (struct wide_child){first_of(a, source), WIDE_RUN, count};
-    return (struct wide_child){plan_node(p, first_of(a, source)), WIDE_NODE, 0};
+    struct leaf leaf = {run->begin, run->end - run->begin};
+    if (leaf.count > WIDE || !sah_all_triangles(b->sah, run))
+        return (struct wide_child){leaf.first, WIDE_RUN, leaf.count};
+    vec_push(&p->leaves, leaf);
+    return (struct wide_child){(uint32_t)p->leaves.n - 1, WIDE_TRIANGLES, leaf.count};
 }
 
-/* Returns its number; recursion is at most BVH_DEPTH_LIMIT deep. */
-static uint32_t plan_node(struct planner *p, uint32_t node)
+static uint32_t build_node(struct builder *b, struct part *p, uint32_t twig);
+
+static struct wide_child build_child(struct builder *b, struct part *p, uint32_t twig,
+                                     uint32_t node, int child)
 {
-    uint32_t number = (uint32_t)p->plans.n;
-    struct plan plan = {0};
-    plan.n = open_children(p->accel, node, plan.source);
-    vec_push(&p->plans, plan);
-    for (uint32_t i = 0; i < plan.n; i++) {
-        struct wide_child child = plan_child(p, plan.source[i]);
-        p->plans.at[number].child[i] = child;
+    const struct twig *t = &p->twigs.at[twig];
+    if (t->kind == TWIG_LEAF)
+        return leaf_of(b, p, &t->run);
+    if (t->kind == TWIG_FORK)
+        return (struct wide_child){build_node(b, p, twig), WIDE_NODE, 0};
+    b->left.at[t->fork[0]].node = node;
+    b->left.at[t->fork[0]].child = child;
+    return (struct wide_child){0, WIDE_NODE, 0};
+}
+
+/* Returns its number in the part; recursion is at most BVH_DEPTH_LIMIT deep. */
+static uint32_t build_node(struct builder *b, struct part *p, uint32_t twig)
+{
+    static const struct wide_node empty = {0};
+    static const struct sah_box nowhere = {{INFINITY, INFINITY, INFINITY},
+                                           {-INFINITY, -INFINITY, -INFINITY}};
+    uint32_t number = (uint32_t)p->nodes.n;
+    struct children c = {0};
+    add_forest(p, twig, WIDE, true, &c);
+    vec_push(&p->nodes, empty);
+    for (int i = 0; i < WIDE; i++)
+        set_planes(&p->nodes.at[number], i, i < c.n ? &p->twigs.at[c.twig[i]].run.box : &nowhere);
+    for (int i = 0; i < c.n; i++) {
+        struct wide_child child = build_child(b, p, c.twig[i], number, i);
+        p->nodes.at[number].child[i] = child;
     }
     return number;
 }
 
-/* ---- what is in them ------------------------------------------------------------------------- */
-
-static void fill_node(const struct accel *a, const struct plan *plan, struct wide_node *node)
+static void build_part(struct builder *b, struct part *p, const struct sah_run *run)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        for (uint32_t i = 0; i < WIDE; i++) {
-            uint32_t source = plan->source[i];
-            const double(*b)[3] = a->nodes[source / 2].plane[source % 2];
-            node->plane[0][axis][i] = i < plan->n ? b[0][axis] : INFINITY;
-            node->plane[1][axis][i] = i < plan->n ? b[1][axis] : -INFINITY;
-        }
-    }
-    for (uint32_t i = 0; i < WIDE; i++)
-        node->child[i] = plan->child[i];
+    build_node(b, p, grow(b, p, run));
+    vec_free(&p->twigs);
 }
 
-static void fill_block(const struct accel *a, struct run run, struct triangle_block *block)
+static void build_left(void *context, size_t item, unsigned worker)
+{
+    struct builder *b = context;
+    (void)worker;
+    build_part(b, &b->parts[item + 1], &b->left.at[item].run);
+}
+
+/* Above this many primitives threads pay. */
+enum { SHARED_LEAST = 10000, SHARES = 8 /* a thread */ };
+
+static void build_parts(struct builder *b, const struct sah_run *all, unsigned threads)
+{
+    struct part first = {0};
+    b->small = threads > 1 && b->sah->n >= SHARED_LEAST ? b->sah->n / (SHARES * threads) : 0;
+    build_part(b, &first, all);
+    b->small = 0;
+    b->parts = mem_zalloc(b->left.n + 1, sizeof *b->parts);
+    b->parts[0] = first;
+    thread_share(b->left.n, threads, build_left, b);
+}
+
+/* Where the parts lie among all nodes and leaves. */
+static void place_parts(struct builder *b)
+{
+    struct wide *w = b->wide;
+    for (size_t i = 0; i <= b->left.n; i++) {
+        struct part *p = &b->parts[i];
+        p->first_node = w->node_count;
+        p->first_leaf = w->block_count;
+        w->node_count += (uint32_t)p->nodes.n;
+        w->block_count += (uint32_t)p->leaves.n;
+    }
+    for (size_t i = 0; i < b->left.n; i++) {
+        const struct branch *branch = &b->left.at[i];
+        /* the first part begins at node 0 */
+        b->parts[0].nodes.at[branch->node].child[branch->child].first = b->parts[i + 1].first_node;
+    }
+}
+
+/* ---- what is in them ------------------------------------------------------------------------- */
+
+static void fill_block(const struct accel *a, struct leaf leaf, struct triangle_block *block)
 {
     const struct geometry *g = a->geometry;
     for (uint32_t i = 0; i < WIDE; i++) {
         /* what lies behind the last is never looked at */
-        struct target target = a->targets[run.first + (i < run.count ? i : 0)];
+        struct target target = a->targets[leaf.first + (i < leaf.count ? i : 0)];
         const uint32_t *vertex = g->triangles.at[target.index].vertex;
         block->target[i] = target;
         for (int k = 0; k < 3; k++) {
@@ -170,21 +245,27 @@ static void fill_block(const struct accel *a, struct run run, struct triangle_bl
     }
 }
 
-enum { FILL_AT_ONCE = 1024 }; /* nodes and blocks */
-
-static void fill_some(void *context, size_t item, unsigned worker)
+static void fill_part(void *context, size_t item, unsigned worker)
 {
-    const struct filling *f = context;
+    const struct builder *b = context;
+    const struct part *p = &b->parts[item];
     (void)worker;
-    for (size_t i = item * FILL_AT_ONCE, end = i + FILL_AT_ONCE; i < end; i++) {
-        if (i < f->wide->node_count)
-            fill_node(f->planner->accel, &f->planner->plans.at[i], &f->wide->nodes[i]);
-        if (i < f->wide->block_count)
-            fill_block(f->planner->accel, f->planner->blocks.at[i], &f->wide->blocks[i]);
+    for (size_t i = 0; i < p->nodes.n; i++) {
+        struct wide_node *node = &b->wide->nodes[p->first_node + i];
+        *node = p->nodes.at[i];
+        for (int k = 0; k < WIDE; k++) {
+            struct wide_child *child = &node->child[k];
+            if (child->kind == WIDE_TRIANGLES)
+                child->first += p->first_leaf;
+            else if (child->kind == WIDE_NODE)
+                child->first += p->first_node;
+        }
     }
+    for (size_t i = 0; i < p->leaves.n; i++)
+        fill_block(b->accel, p->leaves.at[i], &b->wide->blocks[p->first_leaf + i]);
 }
 
-static const struct wide_kernels *kernels_of(enum isa isa)
+const struct wide_kernels *wide_kernels_of(enum isa isa)
 {
     static const struct wide_kernels *const kernels[ISA_COUNT] = {
         [ISA_GENERIC] = &wide_generic,
@@ -196,21 +277,26 @@ static const struct wide_kernels *kernels_of(enum isa isa)
     return kernels[isa];
 }
 
-struct wide *wide_build(const struct accel *a, enum isa isa, unsigned threads)
+struct wide *wide_build(const struct accel *a, struct sah *sah, const struct sah_run *all,
+                        enum isa isa, unsigned threads)
 {
-    struct planner planner = {.accel = a};
-    if (!a->nodes || !kernels_of(isa))
-        return NULL;
-    plan_node(&planner, 0);
-    struct wide *w = mem_alloc(1, sizeof *w);
-    *w = (struct wide){kernels_of(isa), mem_alloc_aligned(planner.plans.n, sizeof *w->nodes),
-                       mem_alloc_aligned(planner.blocks.n, sizeof *w->blocks),
-                       (uint32_t)planner.plans.n, (uint32_t)planner.blocks.n};
-    uint32_t most = w->node_count > w->block_count ? w->node_count : w->block_count;
-    struct filling filling = {&planner, w};
-    thread_share((most + FILL_AT_ONCE - 1) / FILL_AT_ONCE, threads, fill_some, &filling);
-    vec_free(&planner.plans);
-    vec_free(&planner.blocks);
+    struct wide *w = mem_zalloc(1, sizeof *w);
+    struct builder b = {.sah = sah, .accel = a, .wide = w};
+    w->kernels = wide_kernels_of(isa);
+    w->frame = sah->frame;
+    build_parts(&b, all, threads);
+    for (uint32_t i = 0; i < sah->n; i++)
+        a->targets[i] = target_of(a->geometry, sah_prim(&sah->refs[i]));
+    place_parts(&b);
+    w->nodes = mem_alloc_aligned(w->node_count, sizeof *w->nodes);
+    w->blocks = mem_alloc_aligned(w->block_count, sizeof *w->blocks);
+    thread_share(b.left.n + 1, threads, fill_part, &b);
+    for (size_t i = 0; i <= b.left.n; i++) {
+        vec_free(&b.parts[i].nodes);
+        vec_free(&b.parts[i].leaves);
+    }
+    free(b.parts);
+    vec_free(&b.left);
     return w;
 }
 

@@ -1,8 +1,9 @@
-/* The tree of boxes once more, eight children a node, for vector code: the same hits, sooner. */
+/* The tree for vector code: eight children a node, boxes of floats, eight triangles a leaf. */
 #ifndef WRT_ACCEL_WIDE_H
 #define WRT_ACCEL_WIDE_H
 
 #include "accel/bvh.h"
+#include "accel/sah.h"
 #include "math/batch.h"
 
 #include <stdalign.h>
@@ -22,7 +23,7 @@ struct wide_child {
 };
 
 struct wide_node {
-    alignas(64) double plane[2][3][WIDE]; /* lower or upper, axis, child */
+    alignas(64) float plane[2][3][WIDE]; /* lower or upper, axis, child; in the tree's frame */
     struct wide_child child[WIDE];
 };
 
@@ -50,6 +51,7 @@ extern const struct wide_kernels wide_generic, wide_avx2, wide_avx512;
 
 struct wide {
     const struct wide_kernels *kernels;
+    struct tree_frame frame;
     struct wide_node *nodes; /* root first */
     struct triangle_block *blocks;
     uint32_t node_count, block_count;
@@ -58,8 +60,12 @@ struct wide {
 /* Each level takes up to WIDE - 1 children to come back to. */
 enum { WIDE_STACK = BVH_DEPTH_LIMIT * (WIDE - 1) + 1 };
 
-/* From the accel's nodes; NULL when it has none, or the instruction set no vectors. */
-struct wide *wide_build(const struct accel *a, enum isa isa, unsigned threads);
+/* NULL when the instruction set has no vectors. */
+const struct wide_kernels *wide_kernels_of(enum isa isa);
+
+/* Of an accel whose geometry is set and whose targets have room; puts them in order. */
+struct wide *wide_build(const struct accel *a, struct sah *sah, const struct sah_run *all,
+                        enum isa isa, unsigned threads);
 void wide_free(struct wide *w);
 
 /* traverse.c: the best hit of a run of targets; with any_hit, the first found ends the search, and

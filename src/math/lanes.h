@@ -24,12 +24,20 @@ typedef double vreal __attribute__((vector_size(8 * LANES)));
 typedef int64_t vint __attribute__((vector_size(8 * LANES)));
 typedef double vreal_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 typedef int64_t vint_in_memory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+typedef float vfloats_in_memory
+    __attribute__((vector_size(4 * LANES), aligned(4), may_alias)); /* LANES of them */
 typedef int32_t vint32 __attribute__((vector_size(4 * LANES)));
 typedef int32_t vint32_in_memory __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
 
 static inline vreal v_load(const double *p)
 {
     return *(const vreal_in_memory *)p;
+}
+
+/* Of floats. */
+static inline vreal v_load_floats(const float *p)
+{
+    return __builtin_convertvector(*(const vfloats_in_memory *)p, vreal);
 }
 
 static inline vint v_load_int(const int64_t *p)
@@ -40,6 +48,12 @@ static inline vint v_load_int(const int64_t *p)
 static inline void v_store(double *p, vreal a)
 {
     *(vreal_in_memory *)p = a;
+}
+
+/* Of numbers that floats hold exactly. */
+static inline void v_store_floats(float *p, vreal a)
+{
+    *(vfloats_in_memory *)p = __builtin_convertvector(a, vfloats_in_memory);
 }
 
 static inline vint32 v_load_int32(const int32_t *p)

@@ -165,6 +165,15 @@ START_TEST(trees_agree_with_brute_force)
 }
 END_TEST
 
+/* Of either kind. */
+static struct accel some_tree(const struct geometry *g)
+{
+    struct accel tree;
+    struct accel_options options = {.isa = below(2) ? isa_best() : ISA_PLAIN, .threads = 1};
+    accel_build_with(&tree, g, &options);
+    return tree;
+}
+
 static void batch_of(struct ray_batch *batch, const struct ray *rays, uint32_t n,
                      bool common_origin)
 {
@@ -188,8 +197,7 @@ START_TEST(bundles_see_what_single_rays_see)
     counter = (uint64_t)_i << 40 | UINT64_C(1) << 30;
     for (uint32_t i = 0, n = 1 + below(60); i < n; i++)
         add_any(&g, i, size);
-    struct accel tree;
-    accel_build(&tree, &g, false);
+    struct accel tree = some_tree(&g);
     uint32_t usable = 0;
     for (int round = 0; round < TRIES(800); round++) {
         struct ray rays[BATCH];
@@ -239,8 +247,7 @@ START_TEST(shafts_hold_all_shadow_rays)
     counter = (uint64_t)_i << 40 | UINT64_C(2) << 30;
     for (uint32_t i = 0, n = 1 + below(60); i < n; i++)
         add_any(&g, i, size);
-    struct accel tree;
-    accel_build(&tree, &g, false);
+    struct accel tree = some_tree(&g);
     for (int round = 0; round < TRIES(800); round++) {
         struct ray rays[BATCH];
         struct box p = box_empty(), q = box_empty();
@@ -445,6 +452,36 @@ START_TEST(cloth_agrees_with_brute_force)
 }
 END_TEST
 
+/* Floats tell little of something small far from the middle, or of directions beyond their range.
+ */
+START_TEST(wide_ranges_agree_with_brute_force)
+{
+    struct geometry g = {0};
+    counter = (uint64_t)_i << 40 | UINT64_C(5) << 30;
+    double floor = pow(10, 2 * _i);
+    struct vec3 at = random_vector(below(2) ? floor : 1);
+    add_cloth(&g, at, 1);
+    add_triangle(&g, 6, vec3(-floor, -4, -floor), vec3(floor, -4, -floor), vec3(0, -4, floor));
+    geometry_add_sphere(&g, 5, vec3(0, -floor, 0), floor);
+    struct trees trees = trees_of(&g);
+    struct accel brute;
+    accel_build(&brute, &g, true);
+    for (int i = 0; i < TRIES(2000); i++) {
+        const struct vec3 *v = g.vertices.at + below((uint32_t)g.vertices.n);
+        struct ray ray = any_ray(&g, 1);
+        struct hit hit;
+        double length = below(2) ? 1 : pow(10, uniform(-150, 150));
+        ray.origin = vec3_add(below(2) ? at : v[0], random_vector(below(2) ? 10 : floor));
+        ray.direction = vec3_scale(vec3_normalize(vec3_sub(v[0], ray.origin)), length);
+        ray.t_max = below(2) ? RAY_UNBOUNDED : uniform(0.5, 10) / length;
+        compare(&trees, &brute, &ray, &hit);
+    }
+    trees_free(&trees);
+    accel_free(&brute);
+    geometry_free(&g);
+}
+END_TEST
+
 START_TEST(closed_meshes_are_tight)
 {
     struct geometry g = {0};
@@ -474,7 +511,7 @@ static uint32_t some_batch(const struct trees *trees, struct vec3 at, double siz
     const struct geometry *g = trees->geometry;
     const struct vec3 *v = g->vertices.at + below((uint32_t)g->vertices.n - 20);
     struct vec3 eye = vec3_add(at, random_vector(40 * size)), way = random_vector(1);
-    struct vec3 lamp = vec3_add(at, random_vector(40 * size));
+    struct vec3 lamp = vec3_add(at, random_vector((below(3) ? 40 : 1) * size));
     double spread = below(3) ? size * uniform(0, 3) : 0, reach = below(2) ? 1 : 1 - 0x1p-32;
     uint32_t kind = below(5), n = 0, wanted = 4 + below(BATCH - 3);
     bool strange = below(10) == 0;
@@ -523,7 +560,7 @@ START_TEST(packets_see_what_single_rays_see)
         uint32_t n = some_batch(&trees, at, size, rays);
         if (n == 0)
             continue;
-        batch_of(&batch, rays, n, false);
+        batch_of(&batch, rays, n, !rays[0].spawned && below(2));
         for (uint32_t i = 0; i < n; i++)
             accel_closest(&trees.of[ISA_PLAIN], &rays[i], &expected[i]);
         for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
@@ -558,6 +595,7 @@ Suite *bvh_suite(void)
     tcase_add_loop_test(c, bundles_see_what_single_rays_see, 0, 10);
     tcase_add_loop_test(c, shafts_hold_all_shadow_rays, 0, 10);
     tcase_add_loop_test(c, cloth_agrees_with_brute_force, 0, 10);
+    tcase_add_loop_test(c, wide_ranges_agree_with_brute_force, 0, 10);
     tcase_add_loop_test(c, packets_see_what_single_rays_see, 0, 30);
     tcase_add_loop_test(c, few_triangles_agree_with_brute_force, 1, 20);
     tcase_add_test(c, equal_triangles_end);
