@@ -287,7 +287,7 @@ char *file_relative(const char *beside, const char *path)
         relative = climb(from, to, slash ? slash + 1 : path);
     free(from);
     free(to);
-    return relative ? relative : strcpy(mem_alloc(strlen(path) + 1, 1), path);
+    return relative ? relative : mem_string(path);
 }
 
 bool file_same_folder(const char *a, const char *b)

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
@@ -46,6 +47,12 @@ void *mem_realloc(void *old, size_t n, size_t size)
     if (!p)
         mem_exhausted(bytes);
     return p;
+}
+
+char *mem_string(const char *string)
+{
+    size_t n = strlen(string) + 1;
+    return memcpy(mem_alloc(n, 1), string, n);
 }
 
 void *mem_alloc_large(size_t n)

@@ -15,6 +15,9 @@ void *mem_alloc(size_t n, size_t size);
 void *mem_zalloc(size_t n, size_t size);
 void *mem_realloc(void *p, size_t n, size_t size);
 
+/* A copy of a string. */
+char *mem_string(const char *string);
+
 /* n bytes that will be filled from their start on: many of them lie on large pages, where the
  * system has some, which come sooner than as many small ones. */
 void *mem_alloc_large(size_t n);

@@ -90,6 +90,7 @@ static int run_limited(int (*run)(const struct options *o), struct options *o)
         fprintf(stderr, "wrt: error: --max-memory: could not set the limit: %s\n", strerror(errno));
     else
         status = run(o);
+    o->fence = NULL;
     fence_close(&fence);
     return status;
 }

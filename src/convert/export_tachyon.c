@@ -95,7 +95,8 @@ static struct vec3 mean_texel(const struct scene *scene, const struct material *
     if (m->texture == TEXTURE_NONE)
         return vec3_all(1);
     for (int i = 0; i < ALONG * ALONG; i++) {
-        double u = (i % ALONG + 0.5) / ALONG, v = (i / ALONG + 0.5) / ALONG;
+        int column = i % ALONG, row = i / ALONG;
+        double u = (column + 0.5) / ALONG, v = (row + 0.5) / ALONG;
         struct vec3 texel = texture_fetch(&scene->textures.at[m->texture], u, v);
         sum = vec3_mad(sum, 1.0 / (ALONG * ALONG), texel);
     }
@@ -258,18 +259,19 @@ static void add_placed(struct exporting *e, const struct surface *s, uint32_t pr
     const struct affine *place = export_place(scene, prim);
     export_lose(e, LOSS_UNEVEN, s->span);
     for (int i = 0; i < AROUND * ALONG; i++) {
+        int column = i % AROUND, row = i / AROUND;
         struct vec3 p[4];
         for (int k = 0; k < 4; k++) {
-            double u = (i % AROUND + (k == 1 || k == 2)) / (double)AROUND;
-            double v = (i / AROUND + (k >= 2)) / (double)ALONG;
+            double u = (double)(column + (k == 1 || k == 2)) / AROUND;
+            double v = (double)(row + (k >= 2)) / ALONG;
             p[k] = s->kind == SURFACE_SPHERE ? sphere_point(export_sphere(scene, prim), u, v)
                                              : cylinder_point(export_cylinder(scene, prim), u, v);
             p[k] = affine_point(place, p[k]);
         }
         struct vec3 other[3] = {p[2], p[3], p[0]};
-        if (i / AROUND > 0) /* not at the first pole */
+        if (row > 0) /* not at the first pole */
             add_triangle(e->out, p, material);
-        if (i / AROUND < ALONG - 1)
+        if (row < ALONG - 1)
             add_triangle(e->out, other, material);
     }
 }

@@ -3,6 +3,8 @@
 #include "base/num.h"
 #include "convert/to_xml.h"
 
+#include <math.h>
+
 /* ---- spellings ---- */
 
 static const struct ast_node *inside_brackets(const struct ast_node *n)
@@ -32,8 +34,8 @@ static struct str spelling_of(struct xml_writer *w, double x, const struct ast_n
     double spelt;
     if (n && n->kind == AST_ANGLE && s.n > 3)
         s.n -= 3; /* the unit; radians are another number */
-    bool right = s.n && num_parse(s.at, s.at + s.n, &spelt) == s.at + s.n &&
-                 memcmp(&spelt, &x, sizeof x) == 0;
+    bool right = s.n && num_parse(s.at, s.at + s.n, &spelt) == s.at + s.n && spelt == x &&
+                 !signbit(spelt) == !signbit(x);
     if (right)
         return s;
     char digits[NUM_PRINT_BYTES];

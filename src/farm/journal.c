@@ -192,7 +192,7 @@ enum journal_opened journal_open(const char *path, bool resume, const struct til
     j->picture = p;
     j->finished = mem_zalloc(j->tiling.n, sizeof *j->finished);
     j->saved = mem_zalloc(j->tiling.n, sizeof *j->saved);
-    j->path = strcpy(mem_alloc(strlen(path) + 1, 1), path);
+    j->path = mem_string(path);
     pthread_mutex_init(&j->saving, NULL);
     enum journal_opened opened = open_file(j, resume, why);
     if (opened == JOURNAL_OPEN)
