@@ -51,12 +51,39 @@ static void add_refraction(struct level *level, const struct scene *scene,
     path->index = inside ? 1 : ior;
 }
 
+/* All points are of one material, and each mirrors some light: false where that is not so. */
+static bool reflect_all(const struct worker *w, struct level *level)
+{
+    const struct shade_batch *points = &w->points;
+    const struct material *m = points->finish[0]->material;
+    struct ray_batch *rays = &level->reflected.rays;
+    bool none = !points->in_order || !vec3_is_zero(m->refraction);
+    for (uint32_t k = 0; k < points->n && !none; k++) {
+        struct path *path = &level->reflected.paths[k];
+        path->weight = vec3_mul(vec3_get(&w->light.intensity, k), m->reflection);
+        path->parent = k;
+        path->crossed = SURFACE_NONE;
+        path->index = 1;
+        none = vec3_is_zero(path->weight);
+    }
+    if (none)
+        return false;
+    w->tracer->kernels->reflect(points, &rays->direction);
+    vec3_copy(&rays->origin, points->n, &points->p);
+    fill(rays->t_max, 0, points->n, RAY_UNBOUNDED);
+    fill(rays->from, 0, points->n, points->prim[0]);
+    rays->n = points->n;
+    return true;
+}
+
 /* The rays' share does not depend on the light, so each is traced once, for the sum of all lights.
  */
 static void classic_spawn(struct worker *w, struct level *level, const struct path *paths)
 {
     const struct shade_batch *points = &w->points;
     struct vec3_batch mirrored;
+    if (reflect_all(w, level))
+        return;
     w->tracer->kernels->reflect(points, &mirrored);
     for (uint32_t k = 0; k < points->n; k++) {
         const struct material *m = points->finish[k]->material;

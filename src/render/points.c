@@ -378,10 +378,19 @@ static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, u
     return todo;
 }
 
+/* All points, then in their order, take theirs from one texture. */
+static bool is_whole(const struct worker *w, const struct textured *t)
+{
+    uint32_t differing = 0;
+    for (uint32_t i = 1; i < t->n; i++)
+        differing |= t->texture[i] ^ t->texture[0];
+    return t->n == w->points.n && differing == 0;
+}
+
 static void fetch_texels(const struct worker *w, const struct textured *t, struct vec3_batch *out)
 {
     uint64_t todo = UINT64_MAX >> (BATCH - t->n);
-    if (t->whole) {
+    if (is_whole(w, t)) {
         w->tracer->kernels->texels(&w->tracer->scene->textures.at[t->texture[0]], t->u, t->v, t->n,
                                    out);
         return;
@@ -454,21 +463,10 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
         apply_surface(w, first, end, surface);
 }
 
-static bool one_surface(const struct shade_batch *points)
-{
-    uint32_t differing = 0;
-    if (points->in_order)
-        return true;
-    for (uint32_t k = 1; k < points->n; k++)
-        differing |= points->surface[k] ^ points->surface[0];
-    return differing == 0;
-}
-
 static void finish_points(struct worker *w)
 {
     struct shade_batch *points = &w->points;
     w->bumps.n = w->paints.n = 0;
-    w->bumps.whole = w->paints.whole = points->n > 0 && one_surface(points);
     if (w->tracer->modern) {
         vec3_copy(&points->geometric, points->n, &points->normal);
         vec3_copy(&points->smooth, points->n, &points->normal);

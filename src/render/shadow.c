@@ -174,13 +174,6 @@ uint64_t lit_points(struct worker *w, const struct lamp *lamp)
     return front;
 }
 
-/* Nothing stands between any of the points and the lamp. */
-static void open_shares(struct worker *w, uint64_t lit, double *shares)
-{
-    fill(shares, 0, w->points.n, 1);
-    w->stats.skipped[SKIP_OPEN] += (uint64_t)__builtin_popcountll(lit);
-}
-
 /* Modern's shadow rays end this much of their length before the light, so that what the light lies
  * on does not shadow it: far more than rounding errors, far less than can be seen. */
 #define LIGHT_CLEARANCE 0x1p-32
@@ -206,19 +199,22 @@ void aim_at_light(struct worker *w, const struct light *light, const uint32_t *w
     rays->common_origin = n == 1;
 }
 
-static void point_shares(struct worker *w, const struct lamp *lamp, const struct target_list *list,
-                         uint64_t lit, double *shares)
+/* Traces rays from the points of `lit`; returns those that are blocked. */
+static uint64_t find_shadowed(struct worker *w, const struct lamp *lamp,
+                              const struct target_list *list, uint64_t lit)
 {
     uint32_t which[BATCH], n = 0;
-    fill(shares, 0, w->points.n, 1);
-    if (!lit)
-        return;
-    for (; lit; lit &= lit - 1)
-        which[n++] = (uint32_t)__builtin_ctzll(lit);
-    aim_at_light(w, lamp->light, which, n);
+    uint64_t shadowed = 0;
+    bool all = lit == UINT64_MAX >> (BATCH - w->points.n);
+    for (uint64_t left = all ? 0 : lit; left; left &= left - 1)
+        which[n++] = (uint32_t)__builtin_ctzll(left);
+    aim_at_light(w, lamp->light, all ? NULL : which, all ? w->points.n : n);
     uint64_t blocked = find_blocked(w, list);
+    if (all)
+        return blocked;
     for (; blocked; blocked &= blocked - 1)
-        shares[which[__builtin_ctzll(blocked)]] = 0;
+        shadowed |= UINT64_C(1) << which[__builtin_ctzll(blocked)];
+    return shadowed;
 }
 
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares)
@@ -232,8 +228,11 @@ void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, doub
     uint64_t lit = lit_points(w, lamp);
     if (t->skips && lit && w->points.n > 1 && !bundle_needs_no_lists(&t->accel))
         list_shadowers(t, lamp, box, &list);
-    if (list.usable && list.n == 0 && tracer_skips(t, SKIP_OPEN))
-        open_shares(w, lit, shares);
-    else
-        point_shares(w, lamp, &list, lit, shares);
+    fill(shares, 0, w->points.n, 1);
+    if (list.usable && list.n == 0 && tracer_skips(t, SKIP_OPEN)) {
+        w->stats.skipped[SKIP_OPEN] += (uint64_t)__builtin_popcountll(lit);
+        return;
+    }
+    for (uint64_t left = lit ? find_shadowed(w, lamp, &list, lit) : 0; left; left &= left - 1)
+        shares[__builtin_ctzll(left)] = 0;
 }

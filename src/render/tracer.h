@@ -179,7 +179,6 @@ struct light_batch {
 /* Points that take their colour or normal from textures. */
 struct textured {
     uint32_t n;
-    bool whole;              /* if any, all points in their order, and one texture */
     uint32_t point[BATCH];   /* which */
     uint32_t texture[BATCH]; /* whose */
     double u[BATCH_ROOM], v[BATCH_ROOM];
@@ -330,10 +329,10 @@ double shadow_reach(const struct tracer *t, const struct light *light);
 uint64_t find_blocked(struct worker *w, const struct target_list *list);
 /* The primitive that blocks a shadow ray's light, or PRIM_NONE. */
 uint32_t find_blocker(const struct tracer *t, const struct ray *ray);
-/* Fill w->shadow_rays with rays to a light: from n of w->points to one that has a single ray a
- * point; from a point to the counted ones of a batch of lamp->points, *counts telling how often
- * each is there, in `room` if need be; modern: from point k to samples of an area light from
- * `first` on, a multiple of BATCH, that give some light, and how much.  Returns the first not
+/* Fill w->shadow_rays with rays to a light: from n of w->points, all or `which`, to one that has a
+ * single ray a point; from a point to the counted ones of a batch of lamp->points, *counts telling
+ * how often each is there, in `room` if need be; modern: from point k to samples of an area light
+ * from `first` on, a multiple of BATCH, that give some light, and how much.  Returns the first not
  * tried.
  */
 void aim_at_light(struct worker *w, const struct light *light, const uint32_t *which, uint32_t n);
