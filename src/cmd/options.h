@@ -77,7 +77,7 @@ struct options {
     bool list;
     bool expand, rebase, no_verify;
     bool in_place, check, difference;
-    bool jitter, brute_force, quiet, verbose;
+    bool jitter, brute_force, prune, quiet, verbose;
     uint32_t no_skip; /* bit k: skip k is off */
     bool manual, json, deps, behind;
     uint32_t pixel[2];

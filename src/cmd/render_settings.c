@@ -75,6 +75,7 @@ static void choose_sampling(struct render_run *r)
     to->show = o->show;
     to->brute_force = o->brute_force;
     to->no_skip = o->no_skip;
+    to->prune = o->prune;
     to->isa = o->isa;
 }
 
@@ -107,8 +108,8 @@ static void put_settings(struct buffer *b, const struct render_run *r)
         buffer_puts(b, " adaptive ");
         buffer_number(b, o->adaptive);
     }
-    buffer_printf(b, "%s seed %llu depth %u", o->jitter ? " jitter" : "",
-                  (unsigned long long)o->seed, o->depth);
+    buffer_printf(b, "%s seed %llu depth %u%s", o->jitter ? " jitter" : "",
+                  (unsigned long long)o->seed, o->depth, o->prune ? " prune" : "");
     if (o->show != SHOW_PICTURE)
         buffer_printf(b, " show %s", shows[o->show]);
     if (r->options->exposure != 0) {

@@ -73,7 +73,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
     const struct render_stats *r = &s->render;
     print_json(
         json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:{s:I, s:I, "
-                  "s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I}",
+                  "s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
@@ -84,7 +84,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
                   "shadow_rays_skipped_as", skips_json(r, 0, SHADOW_SKIPS), "surfaces",
                   (json_int_t)scene->surfaces.n, "triangles", (json_int_t)count_triangles(scene),
                   "skipped", skipped_names(scene), "left_out", skips_json(r, SHADOW_SKIPS, SKIPS),
-                  "peak_rss_bytes", (json_int_t)stats_peak_rss()),
+                  "pruned", (json_int_t)r->pruned, "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
 
@@ -129,6 +129,8 @@ static void render_text(const struct run_stats *s, const struct options *o,
     for (int i = 0; i < SKIPS; i++)
         fprintf(stderr, "%s%llu %s%s", i == 0 ? " (" : ", ", (unsigned long long)r->skipped[i],
                 skip_rows[i].name, i == SHADOW_SKIPS - 1 ? ")" : "");
+    if (o->prune)
+        fprintf(stderr, ", %llu rays pruned", (unsigned long long)r->pruned);
     for (size_t i = 0; i < scene->skipped.n; i++)
         fprintf(stderr, ", %s", scene->skipped.at[i]);
     fprintf(stderr, "\nmemory     %.1f MB at most\n", (double)stats_peak_rss() * 1e-6);

@@ -205,6 +205,7 @@ void tracer_init(struct tracer *t, const struct scene *scene, const struct rende
         t->any_emissive |= t->emissive[i];
     }
     build_accel(t);
+    t->most = options->prune ? most_radiance(t) : NULL;
 }
 
 void tracer_free(struct tracer *t)
@@ -214,6 +215,7 @@ void tracer_free(struct tracer *t)
     free(t->lamps);
     free(t->finishes);
     free(t->emissive);
+    free(t->most);
     if (t->options->store)
         accel_store_keep(t->options->store, &t->accel);
     else
@@ -226,6 +228,7 @@ static void add_stats(struct render_stats *sum, const struct render_stats *more)
     sum->shadow += more->shadow;
     sum->reflection += more->reflection;
     sum->refraction += more->refraction;
+    sum->pruned += more->pruned;
     for (int i = 0; i < SKIPS; i++)
         sum->skipped[i] += more->skipped[i];
 }

@@ -46,6 +46,7 @@ struct render_options {
     bool brute_force; /* no BVH: every primitive is tested against every ray */
     uint32_t no_skip; /* bit k: skip k is off; all bits: whatever can be done without: same bytes */
     enum isa isa;     /* an available one: same bytes */
+    bool prune;       /* rays that can change no channel by 1/512 are left out: other bytes */
     struct render_progress progress; /* report may be NULL */
     struct render_watch watch;
     struct accel_store *store; /* keeps the tree for the next scene; or NULL */
@@ -77,6 +78,7 @@ struct render_stats {
     double build_s, render_s;
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
     uint64_t skipped[SKIPS];
+    uint64_t pruned; /* rays */
     struct adaptive_stats adaptive;
 };
 

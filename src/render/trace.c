@@ -85,6 +85,10 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
     put_colours(w, rays->n, colours);
     if (depth < t->options->depth && w->points.any_bounces)
         t->shading->spawn(w, level, paths);
+    if (t->most && depth < t->options->depth) {
+        prune(w, depth + 1, &level->reflected, paths);
+        prune(w, depth + 1, &level->refracted, paths);
+    }
     w->stats.reflection += level->reflected.rays.n;
     w->stats.refraction += level->refracted.rays.n;
     trace_offspring(w, level, depth, &level->reflected, colours);

@@ -94,6 +94,7 @@ struct tracer {
     struct finish *finishes; /* one a material */
     bool *emissive;          /* by surface: it does not block light */
     bool any_emissive;
+    struct vec3 *most; /* that can come back along a ray, by how much deeper others go; or NULL */
     uint32_t twins, dark; /* primitives and lights that are left out for that */
     uint32_t skips;       /* bit k: skip k is on; 0: nothing clever is done at all */
 };
@@ -115,6 +116,7 @@ struct media {
 /* Where a ray comes from. */
 struct path {
     struct vec3 weight; /* of its colour in its parent's */
+    struct vec3 total;  /* in its pixel's, where tracer.most is there */
     uint32_t parent;    /* place in its batch of the ray that gave rise to it */
     union {
         struct {              /* classic */
@@ -380,6 +382,13 @@ void worker_free(struct worker *w);
 
 /* spare.c: notes primitives that lie exactly where an earlier one does, and returns how many. */
 uint32_t find_twins(const struct tracer *t, bool *twins);
+
+/* prune.c: tracer.most. */
+struct vec3 *most_radiance(const struct tracer *t);
+/* Leaves out those of the rays, which are `depth` deep, that hardly matter; paths: of their
+ * parents.
+ */
+void prune(struct worker *w, uint32_t depth, struct offspring *o, const struct path *paths);
 
 /* render.c */
 void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options);
