@@ -113,6 +113,11 @@ static void write_picture(struct merge *m, enum picture_format format)
 {
     size_t n;
     char why[IMAGE_REASON_BYTES];
+    struct tilefile_texts texts;
+    tilefile_tell(&m->head, &texts);
+    m->picture->texts = texts.at;
+    m->picture->text_count = TILEFILE_TEXTS;
+    m->picture->halves = m->options->bits == 16;
     void *bytes = picture_encode(m->picture, format, &n, why);
     const char *reason = bytes ? file_write(m->options->output, bytes, n) : why;
     free(bytes);
@@ -131,6 +136,10 @@ int command_merge(const struct options *o)
     if (!picture_format_of(o->output, &format))
         return usage_error("'%s' names no picture format; " PICTURE_SUFFIXES " are written",
                            o->output);
+    if (!picture_format_built(format))
+        return usage_error("'%s': this wrt was built without OpenEXR", o->output);
+    if (o->bits && !(format == PICTURE_EXR && o->bits != 8))
+        return usage_error("merge: --bits is 16 or 32, for OpenEXR; else the parts have them");
     struct merge m = {.options = o};
     frontend_init(&m.frontend, o);
     for (size_t i = 0; i < o->scenes.n; i++)

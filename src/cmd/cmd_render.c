@@ -65,7 +65,7 @@ static void describe_meshes(const struct render_run *r)
 static double deadline(const struct render_run *r)
 {
     static const double write_s[] = {
-        [PICTURE_PNG] = 40e-9, [PICTURE_PPM] = 3e-9, [PICTURE_PFM] = 12e-9};
+        [PICTURE_PNG] = 40e-9, [PICTURE_PPM] = 3e-9, [PICTURE_PFM] = 12e-9, [PICTURE_EXR] = 120e-9};
     double pixels = (double)r->picture->width * r->picture->height;
     return r->started + r->options->time - write_s[r->format] * pixels;
 }

@@ -21,6 +21,7 @@ static const struct {
     [PICTURE_PNG] = {"PNG", {8, 16}},
     [PICTURE_PPM] = {"PPM", {8, 8}},
     [PICTURE_PFM] = {"PFM", {32, 32}},
+    [PICTURE_EXR] = {"OpenEXR", {32, 16}},
 };
 
 int render_choose_format(struct render_run *r)
@@ -36,6 +37,8 @@ int render_choose_format(struct render_run *r)
     if (!picture_format_of(r->output, &r->format))
         return usage_error("'%s' names no picture format; " PICTURE_SUFFIXES " are written",
                            r->output);
+    if (!picture_format_built(r->format))
+        return usage_error("'%s': this wrt was built without OpenEXR", r->output);
     const uint32_t *may = formats[r->format].bits;
     r->bits = o->bits ? o->bits : may[0];
     if (r->bits == may[0] || r->bits == may[1])
@@ -49,7 +52,8 @@ int render_choose_format(struct render_run *r)
 
 enum picture_depth render_depth(const struct render_run *r)
 {
-    return r->bits == 8 ? PICTURE_BYTES : r->bits == 16 ? PICTURE_WORDS : PICTURE_FLOATS;
+    bool floats = r->bits == 32 || (r->options->parts == 0 && r->format == PICTURE_EXR);
+    return floats ? PICTURE_FLOATS : r->bits == 16 ? PICTURE_WORDS : PICTURE_BYTES;
 }
 
 /* Reports what is wrong with a file in place of what was reported before; returns the exit status.
@@ -147,6 +151,11 @@ void render_choose_tiles(struct render_run *r)
 static const char *write_picture(struct render_run *r, const char *path, char why[])
 {
     size_t n;
+    struct tilefile_texts texts;
+    tilefile_tell(&r->head, &texts);
+    r->picture->texts = texts.at;
+    r->picture->text_count = TILEFILE_TEXTS;
+    r->picture->halves = r->bits == 16;
     void *bytes = picture_encode(r->picture, r->format, &n, why);
     const char *reason = bytes ? file_write(path, bytes, n) : why;
     free(bytes);

@@ -49,6 +49,15 @@ const char *tilefile_other(const struct tilefile_head *a, const struct tilefile_
     return room->at;
 }
 
+void tilefile_tell(const struct tilefile_head *h, struct tilefile_texts *out)
+{
+    snprintf(out->software, sizeof out->software, "wrt %s", h->version);
+    snprintf(out->scene, sizeof out->scene, "%016" PRIx64, h->scene);
+    out->at[0] = (struct picture_text){"Software", out->software};
+    out->at[1] = (struct picture_text){"Scene", out->scene};
+    out->at[2] = (struct picture_text){"Settings", h->settings};
+}
+
 uint64_t tilefile_put_head(struct buffer *out, const struct tilefile_head *h)
 {
     size_t start = out->n;

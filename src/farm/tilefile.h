@@ -40,6 +40,15 @@ struct tilefile_head {
 const char *tilefile_other(const struct tilefile_head *a, const struct tilefile_head *b,
                            struct buffer *room);
 
+/* The same for the file of the picture: the program, the scene, the settings; nothing of the time
+ * or the machine. */
+enum { TILEFILE_TEXTS = 3 };
+struct tilefile_texts {
+    struct picture_text at[TILEFILE_TEXTS]; /* into this and the head */
+    char software[40], scene[24];
+};
+void tilefile_tell(const struct tilefile_head *h, struct tilefile_texts *out);
+
 struct tiling tilefile_tiling(const struct tilefile_head *h);
 
 /* ---- writing ---- */

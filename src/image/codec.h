@@ -27,4 +27,8 @@ void *ppm_file_encode(const struct picture *p, size_t *n);
 void *pfm_file_encode(const struct picture *p, size_t *n);
 struct picture *pfm_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 
+/* Where the program was built without OpenEXR they say so. */
+void *exr_file_encode(const struct picture *p, size_t *n, char reason[IMAGE_REASON_BYTES]);
+struct picture *exr_file_decode(const uint8_t *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
+
 #endif

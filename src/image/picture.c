@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* What a file is, by its first bytes. */
-enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_PFM, KIND_OTHER };
+enum signature_kind { KIND_PNG, KIND_JPEG, KIND_PPM, KIND_PFM, KIND_EXR, KIND_OTHER };
 
 struct signature {
     enum signature_kind kind;
@@ -45,7 +45,7 @@ static const struct signature signatures[] = {
     {KIND_OTHER, 0, BYTES("P7"), "PAM"},
     {KIND_PFM, 0, BYTES("PF"), "PFM"},
     {KIND_OTHER, 0, BYTES("Pf"), "grey PFM"},
-    {KIND_OTHER, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR"},
+    {KIND_EXR, 0, BYTES("\x76\x2f\x31\x01"), "OpenEXR"},
     {KIND_OTHER, 0, BYTES("#?RADIANCE"), "Radiance"},
     {KIND_OTHER, 0, BYTES("8BPS"), "Photoshop"},
     {KIND_OTHER, 0, BYTES("qoif"), "QOI"},
@@ -260,6 +260,7 @@ bool picture_format_of(const char *path, enum picture_format *format)
         {".png", PICTURE_PNG},
         {".ppm", PICTURE_PPM},
         {".pfm", PICTURE_PFM},
+        {".exr", PICTURE_EXR},
     };
     const char *slash = strrchr(path, '/');
     const char *dot = strrchr(slash ? slash : path, '.');
@@ -275,16 +276,28 @@ bool picture_format_of(const char *path, enum picture_format *format)
     return false;
 }
 
+bool picture_format_built(enum picture_format format)
+{
+#ifdef HAVE_OPENEXR
+    (void)format;
+    return true;
+#else
+    return format != PICTURE_EXR;
+#endif
+}
+
 void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
                      char reason[IMAGE_REASON_BYTES])
 {
-    bool fits = format == PICTURE_PFM   ? p->floats != NULL
+    static const char *const wants[] = {[PICTURE_PNG] = "PNG wants a picture of bytes or words",
+                                        [PICTURE_PPM] = "PPM wants a picture of bytes",
+                                        [PICTURE_PFM] = "PFM wants a picture of floats",
+                                        [PICTURE_EXR] = "OpenEXR wants a picture of floats"};
+    bool fits = format == PICTURE_PNG   ? p->floats == NULL
                 : format == PICTURE_PPM ? p->bytes != NULL
-                                        : p->floats == NULL;
+                                        : p->floats != NULL;
     if (!fits) {
-        image_reason(reason, format == PICTURE_PFM   ? "PFM wants a picture of floats"
-                             : format == PICTURE_PPM ? "PPM wants a picture of bytes"
-                                                     : "PNG wants a picture of bytes or words");
+        image_reason(reason, "%s", wants[format]);
         return NULL;
     }
     switch (format) {
@@ -292,6 +305,8 @@ void *picture_encode(const struct picture *p, enum picture_format format, size_t
         return ppm_file_encode(p, n);
     case PICTURE_PFM:
         return pfm_file_encode(p, n);
+    case PICTURE_EXR:
+        return exr_file_encode(p, n, reason);
     case PICTURE_PNG:
     default:
         return png_file_encode(p, n, reason);
@@ -323,9 +338,12 @@ struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_RE
         i = ppm_file_decode(bytes, n, reason);
     else if (s && s->kind == KIND_PFM)
         return pfm_file_decode(bytes, n, reason);
+    else if (s && s->kind == KIND_EXR)
+        return exr_file_decode(bytes, n, reason);
     else if (s)
-        image_reason(reason, "%s pictures are not read here; PNG, binary PPM and PFM are", s->name);
+        image_reason(reason, "%s pictures are not read here; PNG, binary PPM, PFM and OpenEXR are",
+                     s->name);
     else
-        image_reason(reason, n ? "not a PNG, PPM or PFM picture" : "the file is empty");
+        image_reason(reason, n ? "not a PNG, PPM, PFM or OpenEXR picture" : "the file is empty");
     return i ? picture_of_image(i, reason) : NULL;
 }

@@ -20,6 +20,11 @@ enum picture_encoding {
 /* What a channel is kept as: 8 bits, a 32-bit float as it came from the renderer, 16 bits. */
 enum picture_depth { PICTURE_BYTES, PICTURE_FLOATS, PICTURE_WORDS };
 
+/* What a file says beside the pixels: Latin letters and digits, keys of one to 79 of them. */
+struct picture_text {
+    const char *key, *value;
+};
+
 /* A picture to write: RGB. */
 struct picture {
     uint32_t width, height;
@@ -30,6 +35,9 @@ struct picture {
     uint8_t *bytes;
     float *floats;
     uint16_t *words;
+    bool halves;                      /* where the format has them, floats are kept in 16 bits */
+    const struct picture_text *texts; /* borrowed; written where the format has a place for them */
+    uint32_t text_count;
 };
 
 /* Largest width, height, and pixel count of a picture or texture. */
@@ -92,14 +100,17 @@ void image_free(struct image *i);
 /* The same size and pixels. */
 bool image_equal(const struct image *a, const struct image *b);
 
-enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM };
-#define PICTURE_SUFFIXES ".png, .ppm and .pfm"
+enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM, PICTURE_EXR };
+#define PICTURE_SUFFIXES ".png, .ppm, .pfm and .exr"
 
 /* By the suffix of path (any case; none means PNG); false when it names no format. */
 bool picture_format_of(const char *path, enum picture_format *format);
+/* Whether this program has the library for it. */
+bool picture_format_built(enum picture_format format);
 
 /* The whole encoded file, to be freed by the caller; NULL with a reason on failure.  PPM
- * (P6) wants a picture of bytes, PNG one of bytes or words, PFM one of floats (any other is
+ * (P6) wants a picture of bytes, PNG one of bytes or words, PFM and OpenEXR
+ * one of floats (any other is
  * refused).  Equal pictures give equal bytes on one machine. */
 void *picture_encode(const struct picture *p, enum picture_format format, size_t *n,
                      char reason[IMAGE_REASON_BYTES]);
@@ -107,7 +118,7 @@ void *picture_encode(const struct picture *p, enum picture_format format, size_t
 /* True when the bytes start as files of pictures do, read or not. */
 bool picture_recognised(const void *bytes, size_t n);
 
-/* Reads a PNG of at most 8 bits a channel, a binary PPM or a PFM back. */
+/* Reads a PNG of at most 8 bits a channel, a binary PPM, a PFM or an OpenEXR file back. */
 struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 
 #endif

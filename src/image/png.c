@@ -236,6 +236,20 @@ static uint8_t *compress(const struct picture *p, size_t *n)
     return out;
 }
 
+/* libpng copies both. */
+static void set_text(struct encoder *e, const struct picture_text *t)
+{
+    union {
+        const char *borrowed;
+        char *text;
+    } key = {t->key}, value = {t->value};
+    png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                     .key = key.text,
+                     .text = value.text,
+                     .text_length = strlen(t->value)};
+    png_set_text(e->png, e->info, &text, 1);
+}
+
 static void encode(struct encoder *e)
 {
     const struct picture *p = e->picture;
@@ -247,6 +261,8 @@ static void encode(struct encoder *e)
         png_set_sRGB(e->png, e->info, PNG_sRGB_INTENT_PERCEPTUAL);
     else if (p->encoding == ENCODING_LINEAR)
         png_set_gAMA(e->png, e->info, 1);
+    for (uint32_t i = 0; i < p->text_count; i++)
+        set_text(e, &p->texts[i]);
     png_write_info(e->png, e->info);
     png_write_chunk(e->png, (png_const_bytep) "IDAT", e->data, e->data_bytes);
     png_write_chunk(e->png, (png_const_bytep) "IEND", NULL, 0);

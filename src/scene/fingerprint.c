@@ -1,5 +1,6 @@
 /* Field by field, for what the compiler leaves between fields is anything; arrays of doubles as
- * they lie in memory.  What lowering derives of other fields is left out. */
+ * they lie in memory.  What lowering derives of other fields is left out, and so is what surfaces
+ * share: each counts by what it is made of. */
 #include "config.h"
 
 #include "scene/fingerprint.h"
@@ -7,11 +8,11 @@
 #include "base/hash.h"
 #include "base/map.h"
 
-/* An array that several surfaces share is hashed once, and then told by its number. */
+/* What several surfaces share is hashed once. */
 struct sharing {
     struct arena arena;
-    struct map numbers; /* of the array's address */
-    size_t n;
+    struct map numbers; /* of what lies at an address, from 1 */
+    VEC(uint64_t) hashes;
 };
 
 static void add_count(struct hash *h, uint64_t n)
@@ -84,67 +85,143 @@ uint64_t geometry_fingerprint(const struct geometry *g)
     return hash_end(&h);
 }
 
-/* ---- what surfaces have at their corners ---- */
+/* ---- what surfaces share ---- */
 
-/* Whether the array comes for the first time; adds its number. */
-static bool add_shared(struct hash *h, struct sharing *sharing, const void *array)
+/* The hash of what lies at the address, if it is known. */
+static bool find_shared(const struct sharing *sharing, const void *what, uint64_t *hash)
 {
-    struct str key = {(const char *)&array, sizeof array};
+    struct str key = {(const char *)&what, sizeof what};
     size_t number = (size_t)(uintptr_t)map_get(&sharing->numbers, key);
-    bool first = array && number == 0;
-    if (first) {
-        number = ++sharing->n;
-        key.at = arena_copy(&sharing->arena, key.at, key.n);
-        map_set(&sharing->numbers, key, (void *)(uintptr_t)number);
-    }
-    add_count(h, number);
-    return first;
+    if (number > 0)
+        *hash = sharing->hashes.at[number - 1];
+    return number > 0;
 }
 
-static void add_corner_normals(struct hash *h, const struct scene *s, const struct surface *surface)
+static uint64_t note_shared(struct sharing *sharing, const void *what, const struct hash *h)
 {
-    const struct geometry *g = &s->geometry;
-    const struct prim *first = &g->prims.at[surface->first_prim];
-    uint32_t faces = surface->prim_count, base = surface->first_vertex;
-    if (first->kind == PRIM_INSTANCE) {
-        g = &g->prototypes.at[g->instances.at[first->index].prototype]->shapes;
-        first = g->prims.at;
-        faces = (uint32_t)g->prims.n;
-        base = 0;
-    }
-    for (uint32_t i = 0; i < faces; i++) {
-        const uint32_t *corner = surface->normal_corners ? surface->normal_corners[i].at
-                                                         : g->triangles.at[first[i].index].vertex;
+    struct str key = {(const char *)&what, sizeof what};
+    vec_push(&sharing->hashes, hash_end(h));
+    key.at = arena_copy(&sharing->arena, key.at, key.n);
+    map_set(&sharing->numbers, key, (void *)(uintptr_t)sharing->hashes.n);
+    return hash_end(h);
+}
+
+static uint64_t hash_image(struct sharing *sharing, const struct image *i)
+{
+    uint64_t known;
+    struct hash h;
+    if (find_shared(sharing, i, &known))
+        return known;
+    size_t channels = (size_t)3 * i->width * i->height;
+    hash_begin(&h, 0);
+    add_count(&h, (uint64_t)i->width << 32 | i->height);
+    add_count(&h, i->data16 != NULL);
+    if (i->data16)
+        hash_add(&h, i->data16, channels * sizeof *i->data16);
+    else
+        hash_add(&h, i->data8, channels);
+    return note_shared(sharing, i, &h);
+}
+
+static void add_texture(struct hash *h, const struct scene *s, struct sharing *sharing,
+                        uint32_t number)
+{
+    add_count(h, number != TEXTURE_NONE);
+    if (number == TEXTURE_NONE)
+        return;
+    const struct texture *t = &s->textures.at[number];
+    add_count(h, (uint64_t)t->linear << 2 | (uint64_t)t->centred << 1 | (t->decode != NULL));
+    add_count(h, hash_image(sharing, t->image));
+}
+
+static uint64_t hash_material(const struct scene *s, struct sharing *sharing,
+                              const struct material *m)
+{
+    uint64_t known;
+    struct hash h;
+    if (find_shared(sharing, m, &known))
+        return known;
+    hash_begin(&h, 0);
+    add_count(&h, m->kind);
+    add_vector(&h, m->diffuse);
+    add_vector(&h, m->specular);
+    add_vector(&h, m->reflection);
+    add_vector(&h, m->refraction);
+    add_number(&h, m->exponent);
+    add_number(&h, m->ior);
+    add_uv_map(&h, &m->uv);
+    add_texture(&h, s, sharing, m->texture);
+    return note_shared(sharing, m, &h);
+}
+
+/* ---- surfaces ---- */
+
+/* The triangles that a surface's normals and texture coordinates belong to. */
+struct faces {
+    const struct geometry *geometry;
+    uint32_t first_prim, n, first_vertex;
+};
+
+static struct faces faces_of(const struct scene *scene, const struct surface *surface)
+{
+    const struct geometry *g = &scene->geometry;
+    const struct prim *p = &g->prims.at[surface->first_prim];
+    if (p->kind != PRIM_INSTANCE)
+        return (struct faces){g, surface->first_prim, surface->prim_count, surface->first_vertex};
+    const struct geometry *shapes = &g->prototypes.at[g->instances.at[p->index].prototype]->shapes;
+    return (struct faces){shapes, 0, (uint32_t)shapes->prims.n, 0};
+}
+
+static uint64_t hash_normals(const struct scene *scene, struct sharing *sharing,
+                             const struct surface *surface)
+{
+    struct faces f = faces_of(scene, surface);
+    uint64_t known;
+    struct hash h;
+    if (!surface->normals)
+        return 0;
+    if (find_shared(sharing, surface->normals, &known))
+        return known;
+    hash_begin(&h, 0);
+    for (uint32_t i = 0; i < f.n; i++) {
+        uint32_t triangle = f.geometry->prims.at[f.first_prim + i].index;
+        const uint32_t *corner = surface->normal_corners
+                                     ? surface->normal_corners[i].at
+                                     : f.geometry->triangles.at[triangle].vertex;
+        uint32_t base = surface->normal_corners ? 0 : f.first_vertex;
         for (int k = 0; k < 3; k++)
-            add_vector(h, surface->normals[surface->normal_corners ? corner[k] : corner[k] - base]);
+            add_vector(&h, surface->normals[corner[k] - base]);
     }
+    return note_shared(sharing, surface->normals, &h);
 }
 
-static void add_uvs(struct hash *h, const struct scene *s, const struct surface *surface)
+static uint64_t hash_uvs(const struct scene *scene, struct sharing *sharing,
+                         const struct surface *surface)
 {
-    const struct geometry *g = &s->geometry;
-    const struct prim *first = &g->prims.at[surface->first_prim];
-    size_t faces = surface->prim_count;
-    if (first->kind == PRIM_INSTANCE)
-        faces = g->prototypes.at[g->instances.at[first->index].prototype]->shapes.prims.n;
-    hash_add(h, surface->uvs, 3 * faces * sizeof *surface->uvs);
+    uint64_t known;
+    struct hash h;
+    if (!surface->uvs)
+        return 0;
+    if (find_shared(sharing, surface->uvs, &known))
+        return known;
+    hash_begin(&h, 0);
+    hash_add(&h, surface->uvs, (size_t)3 * faces_of(scene, surface).n * sizeof *surface->uvs);
+    return note_shared(sharing, surface->uvs, &h);
 }
 
 static void add_surface(struct hash *h, const struct scene *s, struct sharing *sharing,
                         const struct surface *surface)
 {
-    add_count(h, (uint64_t)surface->kind << 32 | surface->material);
+    add_count(h, (uint64_t)surface->kind << 32 | (uint64_t)surface->flip << 1 | surface->needs_uv);
     add_count(h, (uint64_t)surface->first_prim << 32 | surface->prim_count);
-    add_count(h, (uint64_t)surface->normal_map << 32 | (uint64_t)surface->flip << 1 |
-                     surface->needs_uv);
+    add_count(h, hash_material(s, sharing, &s->materials.at[surface->material]));
+    add_texture(h, s, sharing, surface->normal_map);
     if (surface->normal_map != TEXTURE_NONE)
         add_uv_map(h, &surface->uv);
     if (surface->prim_count == 0)
         return;
-    if (add_shared(h, sharing, surface->normals))
-        add_corner_normals(h, s, surface);
-    if (add_shared(h, sharing, surface->uvs))
-        add_uvs(h, s, surface);
+    add_count(h, hash_normals(s, sharing, surface));
+    add_count(h, hash_uvs(s, sharing, surface));
 }
 
 /* ---- the rest ---- */
@@ -158,36 +235,6 @@ static void add_camera(struct hash *h, const struct camera *c)
     add_number(h, c->view_height);
     add_count(h, (uint64_t)c->width << 32 | c->height);
     add_count(h, (uint64_t)c->compatible << 1 | c->modern);
-}
-
-static void add_material(struct hash *h, const struct material *m)
-{
-    add_count(h, (uint64_t)m->kind << 32 | m->texture);
-    add_vector(h, m->diffuse);
-    add_vector(h, m->specular);
-    add_vector(h, m->reflection);
-    add_vector(h, m->refraction);
-    add_number(h, m->exponent);
-    add_number(h, m->ior);
-    add_uv_map(h, &m->uv);
-}
-
-static void add_image(struct hash *h, const struct image *i)
-{
-    size_t channels = (size_t)3 * i->width * i->height;
-    add_count(h, (uint64_t)i->width << 32 | i->height);
-    add_count(h, i->data16 != NULL);
-    if (i->data16)
-        hash_add(h, i->data16, channels * sizeof *i->data16);
-    else
-        hash_add(h, i->data8, channels);
-}
-
-static void add_texture(struct hash *h, struct sharing *sharing, const struct texture *t)
-{
-    add_count(h, (uint64_t)t->linear << 2 | (uint64_t)t->centred << 1 | (t->decode != NULL));
-    if (add_shared(h, sharing, t->image))
-        add_image(h, t->image);
 }
 
 static void add_light(struct hash *h, const struct light *l)
@@ -219,15 +266,10 @@ uint64_t scene_fingerprint(const struct scene *s)
     add_count(&h, s->surfaces.n);
     for (size_t i = 0; i < s->surfaces.n; i++)
         add_surface(&h, s, &sharing, &s->surfaces.at[i]);
-    add_count(&h, s->materials.n);
-    for (size_t i = 0; i < s->materials.n; i++)
-        add_material(&h, &s->materials.at[i]);
-    add_count(&h, s->textures.n);
-    for (size_t i = 0; i < s->textures.n; i++)
-        add_texture(&h, &sharing, &s->textures.at[i]);
     add_count(&h, s->lights.n);
     for (size_t i = 0; i < s->lights.n; i++)
         add_light(&h, &s->lights.at[i]);
+    vec_free(&sharing.hashes);
     map_free(&sharing.numbers);
     arena_free(&sharing.arena);
     return hash_end(&h);

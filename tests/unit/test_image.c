@@ -658,8 +658,9 @@ static const struct {
     {"P6\n1 -1\n255\n", "the PPM header is damaged"},
     {"P6", "the PPM header is damaged"},
     {"P6#", "the PPM header is damaged"},
-    {"P3\n1 1\n255\n1 2 3", "text PPM pictures are not read here; PNG, binary PPM and PFM are"},
-    {"hello", "not a PNG, PPM or PFM picture"},
+    {"P3\n1 1\n255\n1 2 3",
+     "text PPM pictures are not read here; PNG, binary PPM, PFM and OpenEXR are"},
+    {"hello", "not a PNG, PPM, PFM or OpenEXR picture"},
     {"", "the file is empty"},
 };
 
@@ -699,7 +700,8 @@ static const struct {
     {"PF\n0 1\n1\n", 9, "the picture's size of 0 x 1 is nothing"},
     {"PF\n999999 999999\n1\n", 19,
      "the picture's size of 999999 x 999999 is larger than the limit"},
-    {"Pf\n1 1\n1\n", 9, "grey PFM pictures are not read here; PNG, binary PPM and PFM are"},
+    {"Pf\n1 1\n1\n", 9,
+     "grey PFM pictures are not read here; PNG, binary PPM, PFM and OpenEXR are"},
 };
 
 START_TEST(pfm_is_read_or_refused)
