@@ -95,8 +95,8 @@ static int load(struct render_run *r)
     r->stats.parse_s = r->frontend.seconds;
     double start = thread_seconds();
     if (right)
-        right = lower_scene_keeping(&r->frontend.desc, &r->frontend.sources, r->files, &r->lowered,
-                                    &r->frontend.diag);
+        right = lower_scene_keeping(&r->frontend.desc, &r->frontend.sources, r->files, o->threads,
+                                    &r->lowered, &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
     right = right && check_limits(r);
     bool said = render_frames_said(r);

@@ -10,8 +10,7 @@
 
 #include <string.h>
 
-/* The path a property means, in the scene's arena: relative to the file that spells it. */
-static const char *path_of(struct lowering *l, const struct desc_value *file)
+const char *lower_path_of(struct lowering *l, const struct desc_value *file)
 {
     const struct source *s = srcmap_source(l->sources, file->spelt);
     char *path = file_resolve(s ? s->name : "", file->string.at, file->string.n);
@@ -117,13 +116,17 @@ static struct image *decode_image(struct lowering *l, const struct desc_value *f
 
 static struct image *load_image(struct lowering *l, const struct desc_value *file)
 {
-    const char *path = path_of(l, file);
+    const char *path = lower_path_of(l, file);
     struct image *image = map_get(&l->images, str_of(path));
     if (image)
         return image;
     image = l->kept ? map_get(&l->kept->images, str_of(path)) : NULL;
     bool known = image != NULL;
-    if (!known && !(image = decode_image(l, file, path)))
+    if (!known)
+        image = lower_ahead_take(l, path);
+    if (!image)
+        image = decode_image(l, file, path);
+    if (!image)
         return NULL;
     if (l->kept && !known) {
         vec_push(&l->kept->all_images, image);
@@ -158,7 +161,7 @@ uint32_t lower_texture(struct lowering *l, const struct desc_object *o, bool dat
         return *number;
     const struct desc_value *file = desc_get(o, PROP_FILE);
     struct texture t = {.image = load_image(l, file),
-                        .file = path_of(l, file),
+                        .file = lower_path_of(l, file),
                         .linear = desc_word(o, PROP_FILTER) == 1,
                         .centred = modern};
     if (modern && !data && t.image)
@@ -224,7 +227,7 @@ static struct mesh *load_mesh(struct lowering *l, const struct desc_value *file,
 
 const struct lower_mesh *lower_mesh_file(struct lowering *l, const struct desc_value *file)
 {
-    const char *path = path_of(l, file);
+    const char *path = lower_path_of(l, file);
     uintptr_t known = (uintptr_t)map_get(&l->meshes, str_of(path));
     if (!known) {
         struct lower_mesh m = {path, load_mesh(l, file, path), file, l->diag->frame};
@@ -257,7 +260,7 @@ static struct vec2 *read_uv_list(struct lowering *l, const struct desc_value *fi
 
 const struct vec2 *lower_uv_file(struct lowering *l, const struct desc_value *file, size_t faces)
 {
-    const char *path = path_of(l, file);
+    const char *path = lower_path_of(l, file);
     struct str key = str_of(arena_printf(&l->scene->arena, "%zu %s", faces, path));
     static struct vec2 unreadable; /* reported once */
     struct vec2 *known = map_get(&l->uv_lists, key);

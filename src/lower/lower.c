@@ -86,7 +86,7 @@ static void note_unused(struct lowering *l)
 }
 
 static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lower_files *kept,
-                       struct lowered *out, bool copied, struct diag *diag)
+                       unsigned threads, struct lowered *out, bool copied, struct diag *diag)
 {
     *out = (struct lowered){.borrowed = kept != NULL};
     out->scene.model = d->model == SCHEMA_MODERN ? SCENE_MODERN : SCENE_CLASSIC;
@@ -106,6 +106,7 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
     lower_camera(&l);
     lower_count_meshes(&l);
     lower_settings(&l);
+    lower_look_ahead(&l, threads);
     for (size_t i = 0; i < d->lights.n; i++) {
         diag->frame = d->lights.at[i]->frame;
         lower_light(&l, d->lights.at[i]);
@@ -122,6 +123,7 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
     free(l.material_of);
     free(l.texture_of);
     free(l.data_of);
+    lower_ahead_free(&l);
     map_free(&l.images);
     map_free(&l.meshes);
     map_free(&l.models);
@@ -132,19 +134,19 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag)
 {
-    return lower_desc(d, sources, NULL, out, false, diag);
+    return lower_desc(d, sources, NULL, 1, out, false, diag);
 }
 
 bool lower_scene_keeping(const struct desc *d, struct srcmap *sources, struct lower_files *files,
-                         struct lowered *out, struct diag *diag)
+                         unsigned threads, struct lowered *out, struct diag *diag)
 {
-    return lower_desc(d, sources, files, out, false, diag);
+    return lower_desc(d, sources, files, threads, out, false, diag);
 }
 
 bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,
                         struct diag *diag)
 {
-    return lower_desc(d, sources, NULL, out, true, diag);
+    return lower_desc(d, sources, NULL, 1, out, true, diag);
 }
 
 void lower_free(struct lowered *l)

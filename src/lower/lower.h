@@ -35,9 +35,10 @@ struct lowered {
 bool lower_scene(const struct desc *d, struct srcmap *sources, struct lowered *out,
                  struct diag *diag);
 
-/* The same with files that are kept, which must outlive the scene. */
+/* The same with files that are kept, which must outlive the scene, or NULL; textures are decoded by
+ * so many threads. */
 bool lower_scene_keeping(const struct desc *d, struct srcmap *sources, struct lower_files *files,
-                         struct lowered *out, struct diag *diag);
+                         unsigned threads, struct lowered *out, struct diag *diag);
 
 /* The same with every use of a mesh a copy: for whoever cannot share one. */
 bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct lowered *out,

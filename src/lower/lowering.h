@@ -23,6 +23,12 @@ struct lower_files {
     VEC(struct mesh *) all_meshes;
 };
 
+/* A texture that is going to be asked for. */
+struct lower_ahead {
+    const char *path;
+    struct image *image; /* NULL: taken, or it could not be decoded */
+};
+
 struct lowering {
     struct lower_files *kept; /* or NULL */
     const struct desc *desc;
@@ -35,13 +41,25 @@ struct lowering {
     uint32_t *texture_of;             /* likewise, of textures that are light */
     uint32_t *data_of;                /* of those that are normals */
     const double *decode8, *decode16; /* see struct texture; NULL until needed */
-    struct map images;                /* path to struct image, decoded once */
-    struct map meshes;                /* path to its number in out->meshes + 1, as a pointer */
-    struct map models;                /* path and ratio to struct mesh_model */
-    struct map uv_lists;              /* path and number of faces to struct vec2 */
+    VEC(struct lower_ahead) ahead;
+    struct map images;   /* path to struct image, decoded once */
+    struct map meshes;   /* path to its number in out->meshes + 1, as a pointer */
+    struct map models;   /* path and ratio to struct mesh_model */
+    struct map uv_lists; /* path and number of faces to struct vec2 */
 };
 
+/* ---- ahead.c ---- */
+
+/* Decodes the textures of all surfaces, if there are several, and several threads for it. */
+void lower_look_ahead(struct lowering *l, unsigned threads);
+/* The decoded texture, which is the caller's from now on; NULL where there is none. */
+struct image *lower_ahead_take(struct lowering *l, const char *path);
+void lower_ahead_free(struct lowering *l);
+
 /* ---- files.c ---- */
+
+/* The path a property means, in the scene's arena: relative to the file that spells it. */
+const char *lower_path_of(struct lowering *l, const struct desc_value *file);
 
 /* The scene's texture for a described one, loaded when first asked for; TEXTURE_NONE for NULL and
  * after errors.  data: what it holds is no light, as a normal map's. */
