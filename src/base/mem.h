@@ -26,7 +26,7 @@ void *mem_alloc_large(size_t n);
 void *mem_alloc_aligned(size_t n, size_t size);
 
 /* Says on stderr that `wanted` bytes could not be had, and exits with status 3. */
-_Noreturn void mem_exhausted(size_t wanted);
+void mem_exhausted(size_t wanted) __attribute__((noreturn));
 
 /* From now on more than this cannot be had.  Where the system counts what is really there, that is
  * meant, and else all that is mapped.  False when the system refuses. */

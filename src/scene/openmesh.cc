@@ -2,6 +2,10 @@
 
 #include "scene/openmesh.h"
 
+extern "C" {
+#include "base/mem.h"
+}
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
@@ -180,7 +184,7 @@ extern "C" const char *openmesh_analyse(const struct vec3 *points, size_t point_
         *report = a.report();
         return nullptr;
     } catch (const std::bad_alloc &) {
-        return "the mesh is too large for the memory there is";
+        mem_exhausted(face_count * 3 * sizeof(uint64_t)); // its edges, at least
     } catch (...) {
         return "OpenMesh could not analyse the mesh";
     }
