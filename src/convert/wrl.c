@@ -265,7 +265,7 @@ void wrl_use(struct wrl *w, struct span name)
         report_undefined(w, name);
         return;
     }
-    if (!w->declaring)
+    if (!w->declaring && d->end > d->begin)
         wrl_write(w, name, (struct str){w->out->at + d->begin, d->end - d->begin});
     give_points(w, d->points);
 }

@@ -139,9 +139,9 @@ static enum transport_result nothing_yet(const struct transport *t, const char *
 enum transport_result transport_take(struct transport *t, struct str *body, const char **problem)
 {
     struct header h;
-    struct str rest = {t->input.at + t->at, t->input.n - t->at};
-    if (!rest.n)
+    if (t->at == t->input.n)
         return nothing_yet(t, problem);
+    struct str rest = {t->input.at + t->at, t->input.n - t->at};
     enum transport_result result = read_header(rest, &h, problem);
     if (result == TRANSPORT_NOTHING)
         return nothing_yet(t, problem);

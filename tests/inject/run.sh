@@ -75,7 +75,7 @@ right()
     local status=$1 usual=$2 said
     { said=$(<"$work/now.err")$(<"$work/now.out"); } 2>/dev/null # pictures hold NULs
     unharmed || return 1
-    [[ $said == *'out of memory'* ]] || [ "$(field "$work/now.log" live)" -le "$live" ] || {
+    [[ $said == *'out of memory'* ]] || [ "$(field "$work/now.log" live)" -le $((live + streams)) ] || {
         complaint="$(field "$work/now.log" live) blocks leak"
         return 1
     }
@@ -115,6 +115,9 @@ try()
     head -n 3 "$work/now.err"
     failed=$((failed + 1))
 }
+
+# Blocks of OpenMesh's streams, which stay when the C library cannot remember to end them.
+streams=4
 
 count=0 failed=0 turn=0
 while read -r name kinds command; do
