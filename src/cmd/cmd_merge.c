@@ -63,7 +63,8 @@ static void take_part(struct merge *m, const char *path)
     }
     reason = tilefile_open(&t, path, &torn);
     if (reason) {
-        report(m, path, reason);
+        diag_report(&m->frontend.diag, t.failed ? DIAG_CANNOT_READ : DIAG_OTHER_TILES,
+                    (struct span){0}, "cannot use '%s': %s", path, reason);
         return;
     }
     if (!m->picture)
@@ -144,7 +145,7 @@ int command_merge(const struct options *o)
     frontend_init(&m.frontend, o);
     for (size_t i = 0; i < o->scenes.n; i++)
         take_part(&m, o->scenes.at[i]);
-    if (m.picture)
+    if (m.picture && m.frontend.diag.exit != DIAG_EXIT_RESOURCE) /* it would follow */
         report_missing(&m);
     if (m.frontend.diag.errors == 0)
         write_picture(&m, format);

@@ -149,13 +149,16 @@ static enum journal_opened take_file(struct journal *j, const struct tilefile_he
     bool torn;
     const char *reason = tilefile_open(&t, j->path, &torn);
     if (reason)
-        return torn ? JOURNAL_OPEN : refuse(why, JOURNAL_UNUSABLE, reason);
+        return torn ? JOURNAL_OPEN
+                    : refuse(why, t.failed ? JOURNAL_FAILED : JOURNAL_UNUSABLE, reason);
     const char *other = tilefile_other(&t.head, head, why);
     if (!other) {
         j->good = t.good;
         take_records(j, &t, p);
     }
     tilefile_close(&t);
+    if (t.failed)
+        return refuse(why, JOURNAL_FAILED, "it could not be read");
     return other ? JOURNAL_UNUSABLE : JOURNAL_OPEN;
 }
 

@@ -211,7 +211,8 @@ const char *tilefile_open(struct tilefile *t, const char *path, bool *torn)
     static const char start[] = "wrt tiles 1\n";
     *t = (struct tilefile){.file = fopen(path, "rbe")};
     *torn = false;
-    if (!t->file)
+    t->failed = !t->file;
+    if (t->failed)
         return strerror(errno);
     char first[sizeof start - 1];
     size_t have = fread(first, 1, sizeof first, t->file);
@@ -222,8 +223,9 @@ const char *tilefile_open(struct tilefile *t, const char *path, bool *torn)
         return NULL;
     }
     *torn = feof(t->file) && memcmp(first, start, have) == 0;
-    const char *reason = ferror(t->file) ? strerror(errno)
-                         : *torn         ? "it ends within its head"
+    t->failed = ferror(t->file);
+    const char *reason = t->failed ? strerror(errno)
+                         : *torn   ? "it ends within its head"
                          : have == sizeof first && memcmp(first, start, have) == 0
                              ? "its head is damaged"
                              : "it is no file of tiles";
@@ -263,6 +265,7 @@ enum tilefile_found tilefile_next(struct tilefile *t, struct picture *p, size_t 
 
 void tilefile_close(struct tilefile *t)
 {
+    t->failed |= t->file && ferror(t->file);
     if (t->file)
         fclose(t->file);
     t->file = NULL;

@@ -73,6 +73,7 @@ struct tilefile {
     uint64_t check;
     struct tiling tiling;
     uint64_t good; /* bytes of the file that are whole */
+    bool failed;   /* the system could not read it, whatever is in it */
     struct buffer record;
 };
 

@@ -43,6 +43,7 @@ static const struct target {
     {"png", fuzz_texture, NULL, "\x89PNG\r\n\x1a\n IHDR PLTE IDAT IEND tRNS gAMA sRGB zTXt iCCP"},
     {"jpeg", fuzz_texture, NULL,
      "\xff\xd8\xff \xff\xc0 \xff\xc2 \xff\xc4 \xff\xda \xff\xdb \xff\xdd \xff\xee \xff\xd9 JFIF"},
+    {"tiles", fuzz_tiles, NULL, "wrt tiles 1 version scene settings stored part check plain little"},
     {"frames", fuzz_frames, words_lsp, "Content-Length: Content-Type: \r\n"},
     {"lsp", fuzz_messages, words_lsp, ""},
 };

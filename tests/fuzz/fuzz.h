@@ -13,6 +13,7 @@ void fuzz_mesh(const uint8_t *data, size_t n); /* the content tells the format *
 void fuzz_uv_list(const uint8_t *data, size_t n);
 void fuzz_wrl(const uint8_t *data, size_t n);
 void fuzz_texture(const uint8_t *data, size_t n);
+void fuzz_tiles(const uint8_t *data, size_t n);
 void fuzz_frames(const uint8_t *data, size_t n);   /* what a client of the language server sends */
 void fuzz_messages(const uint8_t *data, size_t n); /* the same, each line a message yet to be framed */
 

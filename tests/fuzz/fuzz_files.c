@@ -4,11 +4,15 @@
 #include "fuzz.h"
 
 #include "convert/uv.h"
+#include "farm/tilefile.h"
 #include "image/picture.h"
 #include "scene/mesh.h"
 #include "scene/openmesh.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 struct file_run {
     struct srcmap sources;
@@ -79,4 +83,43 @@ void fuzz_texture(const uint8_t *data, size_t n)
     char reason[IMAGE_REASON_BYTES];
     image_free(image_decode(data, n, reason));
     picture_free(picture_decode(data, n, reason));
+}
+
+/* As `wrt merge` reads a part. */
+static void read_tiles(const char *path)
+{
+    struct tilefile t;
+    bool torn;
+    size_t first, n;
+    if (tilefile_open(&t, path, &torn))
+        return;
+    struct picture *p = picture_new(t.head.width, t.head.height, t.head.depth);
+    while (tilefile_next(&t, p, &first, &n) == TILEFILE_TILES)
+        if (n == 0 || first + n > t.tiling.n)
+            abort();
+    picture_free(p);
+    tilefile_close(&t);
+}
+
+/* A file of tiles, or, behind a first byte of 0, one record of a picture without its check, which
+ * no fuzzer guesses. */
+void fuzz_tiles(const uint8_t *data, size_t n)
+{
+    enum { SIDE = 40 };
+    const struct tilefile_head head = {.width = SIDE, .height = SIDE, .depth = PICTURE_BYTES};
+    if (n && data[0] == 0) {
+        struct tiling tiling = tilefile_tiling(&head);
+        struct picture *p = picture_new(SIDE, SIDE, PICTURE_BYTES);
+        size_t first, tiles;
+        tilefile_take_tiles(&tiling, (const char *)data + 1, n - 1, p, &first, &tiles);
+        picture_free(p);
+        return;
+    }
+    char path[64];
+    int file = memfd_create("tiles", MFD_CLOEXEC);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    if (file < 0 || write(file, data, n) != (ssize_t)n)
+        exit(3);
+    read_tiles(path);
+    close(file);
 }

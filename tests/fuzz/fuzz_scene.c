@@ -183,7 +183,8 @@ void fuzz_define(const uint8_t *data, size_t n)
     size_t length = strnlen(text, n); /* as of an argument */
     const struct source *s = srcmap_add(&r.sources, "<-D a>", text, length);
     syntax_parse_value(&r.sources, s, &value);
-    struct eval_define defines[] = {{str_of("a"), value.statements}, {str_of("b"), value.statements}};
+    struct eval_define defines[] = {{.name = str_of("a"), .value = value.statements},
+                                    {.name = str_of("b"), .value = value.statements}};
     if (parse(&r, (const uint8_t *)scene, sizeof scene - 1))
         evaluate(&r, defines, 2);
     print_findings(&r);

@@ -8,7 +8,7 @@
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 fuzz=${FUZZ:-$(dirname "${WRT:-build/wrt}")/tests/fuzz/fuzz}
-all='native xml define off obj ply stl uv wrl png jpeg frames lsp'
+all='native xml define off obj ply stl uv wrl png jpeg tiles frames lsp'
 
 replay()
 {

@@ -52,4 +52,7 @@ END
     printf 'wrt 1\nlet a = b\nsphere { radius: "x" }\ncamera { fob: 1 }}\n' >wrong.wrt
     printf '#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 0 1 0] } coordIndex [0 1 2 -1] texCoord TextureCoordinate { point [0 0, 1 0, 0 1] } texCoordIndex [0 1 2 -1] } }\n' >face.wrl
     stage_session >session
+    "$WRT" render scene.wrt -q --part 1/2 -o half.1
+    "$WRT" render scene.wrt -q --part 2/2 -o half.2
+    "$WRT" render scene.wrt -t 1 -q --checkpoint kept.journal -o /dev/full 2>/dev/null || [ -s kept.journal ]
 }
