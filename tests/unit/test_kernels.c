@@ -192,6 +192,155 @@ START_TEST(bounds_hold_all_points)
 }
 END_TEST
 
+/* ---- light of model modern ---------------------------------------------------------------------
+ */
+
+static struct vec3 unit_at(uint64_t run, uint32_t i, uint64_t what)
+{
+    return vec3_normalize(random_vec3(run, i, what));
+}
+
+/* Points with all kinds of normals; every third has a highlight that is no whole power. */
+static void make_points(struct shade_batch *points, const struct finish finishes[3], uint64_t run)
+{
+    memset(points, 0, sizeof *points);
+    points->n = run % 2 ? 13 : BATCH;
+    points->any_uneven = true;
+    for (uint32_t i = 0; i < points->n; i++) {
+        struct vec3 normal = unit_at(run, i, 1);
+        vec3_put(&points->p, i, random_vec3(run, i, 2));
+        vec3_put(&points->incoming, i, unit_at(run, i, 3));
+        vec3_put(&points->normal, i, normal);
+        vec3_put(&points->geometric, i, i % 4 ? normal : unit_at(run, i, 4));
+        vec3_put(&points->smooth, i, i % 5 ? normal : unit_at(run, i, 5));
+        vec3_put(&points->diffuse, i, random_vec3(run, i, 6));
+        points->finish[i] = &finishes[i % 3];
+        points->power[i] = finishes[i % 3].power;
+        vec3_put(&points->specular, i, finishes[i % 3].specular);
+    }
+}
+
+/* Bit 1: a sun; bits 2 and 3: a light on both sides, one that weakens. */
+START_TEST(modern_light_is_that_of_single_points)
+{
+    static const struct material materials[3] = {
+        {.kind = MATERIAL_PHONG, .specular = {0.5, 0.4, 0.3}, .exponent = 7},
+        {.kind = MATERIAL_PHONG, .specular = {0.5, 0.4, 0.3}, .exponent = 2.5},
+        {.kind = MATERIAL_EMISSIVE}};
+    struct finish finishes[3];
+    uint64_t run = (uint64_t)_i;
+    for (int i = 0; i < 3; i++)
+        finishes[i] = finish_of(&materials[i]);
+    struct shade_batch *points = mem_alloc_aligned(1, sizeof *points);
+    make_points(points, finishes, run);
+    points->any_glowing = true;
+    struct light light = {.kind = run & 2 ? LIGHT_SUN : LIGHT_POINT,
+                          .position = unit_at(run, 0, 7),
+                          .intensity = {1, 2, 3},
+                          .both_sides = run & 4,
+                          .inverse_square = run & 8};
+    struct lamp lamp = {.light = &light};
+    struct sample_batch samples = {.n = 21};
+    for (uint32_t i = 0; i < samples.n; i++)
+        sample_batch_put(&samples, i,
+                         &(struct light_sample){random_vec3(run, i, 8), unit_at(run, i, 9), 0.1});
+    double shares[BATCH_ROOM] = {0};
+    for (uint32_t i = 0; i < points->n; i++)
+        shares[i] = i % 7 != 3;
+    struct light_batch expected = {0};
+    render_plain.add_modern(points, &light, shares, &expected);
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        const struct render_kernels *kernels = render_kernels_of((enum isa)isa);
+        struct light_batch sums = {0};
+        kernels->add_modern(points, &light, shares, &sums);
+        check_same_vectors(&sums.direct, &expected.direct, points->n);
+        uint64_t front = kernels->front(points, &lamp);
+        for (uint32_t i = 0; i < points->n; i++) {
+            struct vec3_batch gives, alone;
+            bool lit = !vec3_is_zero(vec3_get(&sums.direct, i));
+            ck_assert(!lit || front >> i & 1);
+            kernels->give(points, i, &light, &samples, &gives);
+            render_plain.give(points, i, &light, &samples, &alone);
+            check_same_vectors(&gives, &alone, samples.n);
+        }
+    }
+    free(points);
+}
+END_TEST
+
+/* No sample within a ball gives light to a point that does not face the ball. */
+START_TEST(who_faces_away_gets_no_light)
+{
+    static const struct material matt = {.kind = MATERIAL_LAMBERT};
+    struct finish finishes[3] = {finish_of(&matt), finish_of(&matt), finish_of(&matt)};
+    uint64_t run = (uint64_t)_i, away = 0;
+    struct shade_batch *points = mem_alloc_aligned(1, sizeof *points);
+    make_points(points, finishes, run);
+    struct light light = {.kind = LIGHT_AREA, .intensity = {1, 1, 1}, .both_sides = true};
+    struct lamp lamp = {.light = &light, .center = random_vec3(run, 0, 10), .radius = 0.3};
+    struct sample_batch samples = {.n = BATCH};
+    for (uint32_t i = 0; i < samples.n; i++)
+        sample_batch_put(&samples, i,
+                         &(struct light_sample){vec3_mad(lamp.center, 0.3, unit_at(run, i, 8)),
+                                                unit_at(run, i, 9), 0.1});
+    for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        uint64_t front = render_kernels_of((enum isa)isa)->front(points, &lamp);
+        for (uint32_t i = 0; i < points->n; i++) {
+            struct vec3_batch gives;
+            if (front >> i & 1)
+                continue;
+            away++;
+            render_plain.give(points, i, &light, &samples, &gives);
+            for (uint32_t k = 0; k < samples.n; k++)
+                ck_assert(vec3_is_zero(vec3_get(&gives, k)));
+        }
+    }
+    ck_assert_uint_gt(away, 0);
+    free(points);
+}
+END_TEST
+
+START_TEST(normals_are_interpolated_as_for_single_points)
+{
+    uint64_t run = (uint64_t)_i;
+    struct finish none[3] = {{0}};
+    struct hit_shapes *shapes = mem_alloc_aligned(1, sizeof *shapes);
+    struct shade_batch *points = mem_alloc_aligned(2, sizeof *points), *other = points + 1;
+    memset(shapes, 0, sizeof *shapes);
+    make_points(points, none, run);
+    for (int kind = 0; kind <= PRIM_KINDS; kind++)
+        shapes->first[kind] = kind <= PRIM_TRIANGLE ? 2 : points->n - 3;
+    for (uint32_t i = 0; i < points->n; i++) {
+        vec3_put(&shapes->at, i, random_vec3(run, i, 11));
+        vec3_put(&shapes->second, i, random_vec3(run, i, 12));
+        vec3_put(&shapes->third, i, random_vec3(run, i, 13));
+        for (uint32_t k = 0; k < 3; k++)
+            vec3_put(&shapes->corner_normal[k], i, i % 6 ? unit_at(run, i, 14 + k) : vec3_all(0));
+        shapes->smooth[i] = i % 3 != 1 && i >= 2 && i < points->n - 3;
+        points->b1[i] = random_at(run, i, 20) / 2;
+        points->b2[i] = random_at(run, i, 21) / 2;
+    }
+    vec3_copy(&points->lifted, BATCH, &points->p);
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        struct shade_batch *expected = mem_alloc_aligned(1, sizeof *expected);
+        *other = *expected = *points;
+        render_plain.smoothen(shapes, true, expected);
+        render_kernels_of((enum isa)isa)->smoothen(shapes, true, other);
+        check_same_vectors(&other->normal, &expected->normal, points->n);
+        check_same_vectors(&other->lifted, &expected->lifted, points->n);
+        free(expected);
+    }
+    free(shapes);
+    free(points);
+}
+END_TEST
+
 /* As picture_set stores them. */
 START_TEST(packed_pixels_are_those_of_single_colours)
 {
@@ -284,6 +433,9 @@ Suite *kernels_suite(void)
     tcase_add_loop_test(c, bundles_meet_what_single_rays_meet, 0, 64);
     tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 8);
     tcase_add_test(c, bounds_hold_all_points);
+    tcase_add_loop_test(c, modern_light_is_that_of_single_points, 0, 16);
+    tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
+    tcase_add_loop_test(c, normals_are_interpolated_as_for_single_points, 0, 8);
     tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 2);
     tcase_add_test(c, fences_tell_who_is_outside);
     tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
