@@ -294,9 +294,12 @@ static inline void clip_to_planes(double lo, double hi, vreal o, vreal inverse, 
 }
 
 /* See clamp_to_bounds. */
-static vreal clamped_to_bounds(const struct triangle *tri, struct box box, struct vvec3 o,
+static vreal clamped_to_bounds(const struct geometry *g, const struct triangle *tri, struct vvec3 o,
                                struct vvec3 d, vreal t)
 {
+    const struct vec3 *v = g->vertices.at;
+    struct vec3 a = v[tri->vertex[0]], b = v[tri->vertex[1]], c = v[tri->vertex[2]];
+    struct box box = {vec3_min(vec3_min(a, b), c), vec3_max(vec3_max(a, b), c)};
     vreal pad = 0.5 * BOX_PADDING * (tri->reach + v3_largest(o)), largest = v3_largest(d);
     vreal near = v_all(-INFINITY), far = v_all(INFINITY);
     clip_to_planes(box.lo.x, box.hi.x, o.x, inverses(d.x, largest), pad, &near, &far);
@@ -314,8 +317,6 @@ static inline unsigned meet_triangle_along(struct frame_batch *f, struct target 
     const struct triangle *tri = &f->geometry->triangles.at[target.index];
     const struct vec3 *v = f->geometry->vertices.at;
     struct vvec3 corner[3], seen[3], normal = v3_all(tri->normal);
-    struct vec3 a = v[tri->vertex[0]], b = v[tri->vertex[1]], c = v[tri->vertex[2]];
-    struct box box = {vec3_min(vec3_min(a, b), c), vec3_max(vec3_max(a, b), c)};
     vreal zero = v_all(0);
     unsigned met = 0;
     for (int k = 0; k < 3; k++)
@@ -334,7 +335,7 @@ static inline unsigned meet_triangle_along(struct frame_batch *f, struct target 
         vreal t = distance / speed;
         vmask steep = v_at_most(0x1p-4 * v_load(f->square + i), speed * speed);
         if (v_any(may & v_not(steep)))
-            t = v_select(steep, t, clamped_to_bounds(tri, box, o, d, t));
+            t = v_select(steep, t, clamped_to_bounds(f->geometry, tri, o, d, t));
         if (offer(f, i, v_select(may, t, zero), target.prim, zero))
             met |= 1u << i / PART;
     }

@@ -165,8 +165,8 @@ static double farthest_along(const struct packet *p, uint32_t first)
     return v_most(far) + p->padding;
 }
 
-/* How far from the apex a part's rays can still hit something. */
-static float farthest_way(const struct packet *p, uint32_t first)
+/* How far from the apex a part's rays can still hit, in the same sense. */
+static double farthest_way(const struct packet *p, uint32_t first)
 {
     const struct frame_batch *f = p->frames;
     const double *d = along(&f->rays->direction, p->axis[2]);
@@ -180,18 +180,28 @@ static float farthest_way(const struct packet *p, uint32_t first)
                            v_all(-INFINITY), way);
         far = v_max(way, far);
     }
-    return float_above((v_most(far) + p->padding) * (1 + FLOAT_SLACK));
+    return v_most(far) + p->padding;
+}
+
+static void find_farthest_of_part(struct packet *p, uint32_t j)
+{
+    if (!p->has_apex) {
+        p->part[j].far = farthest_along(p, PART * j);
+        return;
+    }
+    double way = farthest_way(p, PART * j), apex = p->down ? -p->apex[2] : p->apex[2];
+    bool over = way == -INFINITY;
+    p->aspects.way[j] = over ? -INFINITY : float_above(way * (1 + FLOAT_SLACK));
+    p->part[j].far = apex + p->padding;
+    if (over || p->frames->rays->common_origin)
+        p->part[j].far += way;
 }
 
 /* After hits of these parts. */
 static void find_farthest(struct packet *p, unsigned parts)
 {
-    for (; parts; parts &= parts - 1) {
-        unsigned j = (unsigned)__builtin_ctz(parts);
-        p->part[j].far = farthest_along(p, PART * j);
-        if (p->has_apex)
-            p->aspects.way[j] = farthest_way(p, PART * j);
-    }
+    for (; parts; parts &= parts - 1)
+        find_farthest_of_part(p, (uint32_t)__builtin_ctz(parts));
     p->whole.far = -INFINITY;
     for (uint32_t j = 0; PART * j < p->frames->n; j++)
         p->whole.far = p->part[j].far > p->whole.far ? p->part[j].far : p->whole.far;
