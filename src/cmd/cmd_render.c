@@ -135,6 +135,21 @@ static void begin_picture(struct render_run *r)
     r->stats.height = height;
 }
 
+static void render_tiles(void *context, const size_t *tiles, size_t n)
+{
+    struct render_run *r = context;
+    rendering_tiles(r->rendering, tiles, n);
+}
+
+/* All tiles by all ranks; those that this one hears of are counted by rank 0. */
+static void share_tiles(struct render_run *r)
+{
+    struct cluster_job job = {r->tiling,       r->picture,   0,         r->tiles, r->tile_count,
+                              &interrupt_flag, render_tiles, note_tile, r};
+    cluster_render(r->cluster, &job, &r->stats.cluster);
+    r->stats.ranks = cluster_ranks(r->cluster);
+}
+
 static void render(struct render_run *r)
 {
     struct render_options *to = &r->render;
@@ -144,12 +159,16 @@ static void render(struct render_run *r)
                    (unsigned long)r->picture->width * r->picture->height);
     to->progress.report = progress_report;
     to->progress.context = &r->progress;
-    to->watch = (struct render_watch){note_tile, r, &interrupt_flag, tiles};
+    if (cluster_rank(r->cluster) == 0)
+        to->watch = (struct render_watch){note_tile, r, &interrupt_flag, tiles};
     r->finished = r->journal ? journal_tiles(r->journal) : 0;
     r->expected = r->finished + tiles;
-    struct rendering *rendering = rendering_begin(&r->lowered.scene, to, r->picture);
-    rendering_tiles(rendering, r->tiles, r->tile_count);
-    rendering_end(rendering, &r->stats.render);
+    r->rendering = rendering_begin(&r->lowered.scene, to, r->picture);
+    if (r->cluster)
+        share_tiles(r);
+    else
+        rendering_tiles(r->rendering, r->tiles, r->tile_count);
+    rendering_end(r->rendering, &r->stats.render);
     progress_end(&r->progress);
 }
 
@@ -159,9 +178,25 @@ static bool ended_early(const struct render_run *r)
     return interrupt_flag && (r->options->time > 0 || r->finished < r->expected);
 }
 
-int render_picture(struct render_run *r)
+/* All ranks must have come as far as this one, with the same scene.  The status of the worst. */
+static int agree(struct render_run *r, int status)
 {
-    r->started = thread_seconds();
+    int who, all = cluster_agree(r->cluster, status, &who);
+    if (all != 0 && status == 0 && cluster_rank(r->cluster) == 0)
+        fprintf(stderr, "wrt: error: process %d of the %d could not go on (exit status %d)\n", who,
+                cluster_ranks(r->cluster), all);
+    return all;
+}
+
+static int agree_on_scene(struct render_run *r)
+{
+    bool same = cluster_tell(r->cluster, r->head.scene) == r->head.scene;
+    return agree(r, same ? 0 : DIAG_EXIT_INPUT);
+}
+
+/* As far as the scene. */
+static int prepare(struct render_run *r)
+{
     int status = render_choose_format(r);
     if (status == 0)
         status = load(r);
@@ -169,17 +204,31 @@ int render_picture(struct render_run *r)
         status = render_choose(r);
     if (status == 0)
         status = render_check_output(r);
+    status = agree(r, status);
     if (status != 0)
         return status;
     begin_picture(r);
-    if (r->frames && render_frame_is_there(r))
+    return agree_on_scene(r);
+}
+
+int render_picture(struct render_run *r)
+{
+    bool leads = cluster_rank(r->cluster) == 0;
+    r->started = thread_seconds();
+    int status = prepare(r);
+    if (status != 0)
+        return status;
+    bool there = r->frames && leads && render_frame_is_there(r);
+    if (cluster_tell(r->cluster, there))
         return 0;
-    status = render_open_journal(r);
+    status = (int)cluster_tell(r->cluster, leads ? (uint64_t)render_open_journal(r) : 0);
     if (status != 0)
         return status;
     render_choose_tiles(r);
     interrupt_catch();
     render(r);
+    if (!leads)
+        return 0;
     status = ended_early(r) ? render_save(r) : render_finish(r);
     r->stats.total_s = thread_seconds() - r->started;
     if (status == 0)
@@ -195,9 +244,9 @@ static int check_options(const struct options *o)
                            : usage_error("render: no scene given");
     if (o->resume && !o->checkpoint)
         return usage_error("--resume goes on with a --checkpoint, and none is given");
-    if (o->time > 0 && (o->checkpoint || o->parts > 0 || o->animated))
+    if (o->time > 0 && (o->checkpoint || o->parts > 0 || o->animated || o->mpi))
         return usage_error("--time makes another picture each time: it is no option with "
-                           "--checkpoint, --frames and --part");
+                           "--checkpoint, --frames, --mpi and --part");
     return 0;
 }
 
@@ -211,19 +260,44 @@ void render_run_free(struct render_run *r)
     frontend_free(&r->frontend);
 }
 
-int command_render(const struct options *o)
+static int render_all(const struct options *o, struct cluster *cluster)
 {
-    int status = check_options(o);
-    if (status != 0)
-        return status;
+    int status;
     char *by_default = o->output ? NULL : default_output(o);
-    struct render_run r = {.options = o, .output = o->output ? o->output : by_default};
+    struct render_run r = {
+        .options = o, .output = o->output ? o->output : by_default, .cluster = cluster};
     if (o->animated) {
-        status = render_frames(o, r.output);
+        status = render_frames(o, r.output, cluster);
     } else {
         status = render_picture(&r);
         render_run_free(&r);
     }
     free(by_default);
     return status;
+}
+
+/* Only rank 0 speaks; processes of one machine share its processors. */
+static int render_by_mpi(const struct options *o)
+{
+    struct cluster *c = cluster_begin();
+    if (!c)
+        return usage_error("--mpi: this wrt was built without MPI");
+    struct options mine = *o;
+    unsigned neighbours = (unsigned)cluster_neighbours(c);
+    if (o->own_threads)
+        mine.threads = o->threads > neighbours ? o->threads / neighbours : 1;
+    if (cluster_rank(c) > 0 &&
+        (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)))
+        mine.quiet = true;
+    int status = render_all(&mine, c);
+    cluster_end(c);
+    return status;
+}
+
+int command_render(const struct options *o)
+{
+    int status = check_options(o);
+    if (status != 0)
+        return status;
+    return o->mpi ? render_by_mpi(o) : render_all(o, NULL);
 }

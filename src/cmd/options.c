@@ -597,7 +597,6 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
 {
     *out = (struct options){.depth = DEPTH_OF_SCENE,
                             .fps = 24,
-                            .threads = thread_cores(),
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000,
                             .max_pixels = IMAGE_PIXEL_LIMIT,
@@ -622,6 +621,8 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
             return OPTIONS_WRONG;
         i += g.words;
     }
+    out->own_threads = out->threads == 0;
+    out->threads = out->own_threads ? thread_cores() : out->threads;
     return OPTIONS_RUN;
 }
 

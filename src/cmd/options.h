@@ -56,11 +56,13 @@ struct options {
     const char *checkpoint; /* or NULL */
     bool resume;
     uint32_t part, parts; /* from 1; 0: the whole picture */
+    bool mpi;
     bool animated;
     uint32_t frames[2]; /* first and last */
     uint32_t fps;
     uint32_t depth; /* or DEPTH_OF_SCENE */
     uint32_t threads;
+    bool own_threads; /* not given: as many as there are processors */
     uint64_t seed;
     size_t max_objects;
     uint64_t max_memory; /* bytes; 0: no limit */

@@ -74,6 +74,7 @@ struct record {
 struct frames {
     char *list; /* path of the text */
     VEC(struct record) records;
+    struct cluster *cluster;
     uint32_t frame; /* under way */
     size_t params;  /* -D of the command line */
     bool said;      /* what there is to say of the scene */
@@ -177,7 +178,8 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
     char *name = frame_name(pattern, f->frame);
     char *journal = o->checkpoint ? frame_name(o->checkpoint, f->frame) : NULL;
     mine.checkpoint = journal;
-    struct render_run r = {.options = &mine, .output = name, .frames = f, .files = files};
+    struct render_run r = {
+        .options = &mine, .output = name, .frames = f, .files = files, .cluster = f->cluster};
     r.render.store = trees;
     int status = render_picture(&r);
     render_run_free(&r);
@@ -189,7 +191,7 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
     return status;
 }
 
-int render_frames(const struct options *o, const char *pattern)
+int render_frames(const struct options *o, const char *pattern, struct cluster *cluster)
 {
     struct place place;
     if (!find_place(pattern, &place))
@@ -197,7 +199,7 @@ int render_frames(const struct options *o, const char *pattern)
     if (o->checkpoint && !find_place(o->checkpoint, &place))
         return usage_error("--frames wants one %%04d in the journal's name, not '%s'",
                            o->checkpoint);
-    struct frames f = {.params = o->defines.n};
+    struct frames f = {.params = o->defines.n, .cluster = cluster};
     char *list = name_with(pattern, "frames");
     struct buffer path = {0};
     buffer_puts(&path, list);

@@ -140,7 +140,7 @@ static void drop_saved(struct render_run *r)
 void render_choose_tiles(struct render_run *r)
 {
     uint32_t part = r->options->part, parts = r->options->parts;
-    if (parts > 0 || r->journal)
+    if (parts > 0 || r->journal || r->cluster)
         r->tiles = part_tiles(&r->tiling, parts ? part : 1, parts ? parts : 1, &r->tile_count);
     if (r->journal)
         drop_saved(r);

@@ -5,6 +5,7 @@
 #include "cmd/frontend.h"
 #include "cmd/progress.h"
 #include "cmd/stats.h"
+#include "farm/cluster.h"
 #include "farm/journal.h"
 
 #include <stdatomic.h>
@@ -15,6 +16,8 @@ struct render_run {
     const struct options *options;
     struct frames *frames;     /* the picture is one of them; or NULL */
     struct lower_files *files; /* that they share; or NULL */
+    struct cluster *cluster;   /* whose ranks share the work; or NULL */
+    struct rendering *rendering;
     struct frontend frontend;
     struct lowered lowered;
     const char *output; /* path of the picture, or of a part */
@@ -36,14 +39,14 @@ struct render_run {
 
 /* ---- cmd_render.c ---- */
 
-/* All steps; the exit status.  Options, output, frames and files are set. */
+/* All steps; the exit status.  Options, output, frames, files and cluster are set. */
 int render_picture(struct render_run *r);
 void render_run_free(struct render_run *r);
 
 /* ---- render_frames.c ---- */
 
 /* `pattern` has %04d in it; the exit status. */
-int render_frames(const struct options *o, const char *pattern);
+int render_frames(const struct options *o, const char *pattern, struct cluster *cluster);
 /* Whether the frame's file is there, made of the same scene and settings, and whole. */
 bool render_frame_is_there(struct render_run *r);
 /* Notes that it is; NULL or a reason. */

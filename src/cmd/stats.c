@@ -47,6 +47,15 @@ static json_t *samples_json(const struct run_stats *s, const struct options *o)
     return o->adaptive > 0 ? json_real(samples_mean(s)) : json_integer(s->grid * s->grid);
 }
 
+/* NULL where there is none. */
+static json_t *cluster_json(const struct run_stats *s)
+{
+    if (s->ranks == 0)
+        return NULL;
+    return json_pack("{s:i, s:I, s:I}", "ranks", s->ranks, "messages",
+                     (json_int_t)s->cluster.messages, "bytes", (json_int_t)s->cluster.bytes);
+}
+
 /* NULL where it was not asked for. */
 static json_t *adaptive_json(const struct run_stats *s, const struct options *o)
 {
@@ -72,19 +81,20 @@ static void render_json(const struct run_stats *s, const struct options *o,
 {
     const struct render_stats *r = &s->render;
     print_json(
-        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:{s:I, s:I, "
-                  "s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I}",
+        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:o*, s:{s:I, "
+                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
                   (int)s->height, "samples", samples_json(s, o), "adaptive", adaptive_json(s, o),
-                  "rays", "primary", (json_int_t)r->primary, "shadow", (json_int_t)r->shadow,
-                  "reflection", (json_int_t)r->reflection, "refraction", (json_int_t)r->refraction,
-                  "shadow_rays_skipped", (json_int_t)shadow_rays_skipped(r),
-                  "shadow_rays_skipped_as", skips_json(r, 0, SHADOW_SKIPS), "surfaces",
-                  (json_int_t)scene->surfaces.n, "triangles", (json_int_t)count_triangles(scene),
-                  "skipped", skipped_names(scene), "left_out", skips_json(r, SHADOW_SKIPS, SKIPS),
-                  "pruned", (json_int_t)r->pruned, "peak_rss_bytes", (json_int_t)stats_peak_rss()),
+                  "mpi", cluster_json(s), "rays", "primary", (json_int_t)r->primary, "shadow",
+                  (json_int_t)r->shadow, "reflection", (json_int_t)r->reflection, "refraction",
+                  (json_int_t)r->refraction, "shadow_rays_skipped",
+                  (json_int_t)shadow_rays_skipped(r), "shadow_rays_skipped_as",
+                  skips_json(r, 0, SHADOW_SKIPS), "surfaces", (json_int_t)scene->surfaces.n,
+                  "triangles", (json_int_t)count_triangles(scene), "skipped", skipped_names(scene),
+                  "left_out", skips_json(r, SHADOW_SKIPS, SKIPS), "pruned", (json_int_t)r->pruned,
+                  "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
 

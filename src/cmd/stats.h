@@ -3,6 +3,7 @@
 #define WRT_CMD_STATS_H
 
 #include "cmd/options.h"
+#include "farm/cluster.h"
 #include "lower/lower.h"
 #include "render/render.h"
 
@@ -14,6 +15,8 @@ struct run_stats {
     uint32_t width, height;
     uint32_t grid; /* samples along each side of a pixel */
     struct render_stats render;
+    int ranks; /* 0: there is no cluster */
+    struct cluster_stats cluster;
 };
 
 void stats_print_render(const struct run_stats *s, const struct options *o,
