@@ -526,9 +526,14 @@ static void meet_run(struct packet *p, struct wide_child run)
 
 /* ---- the tree -------------------------------------------------------------------------------- */
 
-static void walk_packet(struct packet *p)
+/* Rays to a light that meet more leaves together have little in common and are better off alone. */
+enum { LEAVES_LIMIT = 48 };
+
+/* False when it is given up. */
+static bool walk_packet(struct packet *p)
 {
     const struct wide *wide = p->accel->wide;
+    int leaves = 0;
     struct wide_pending stack[WIDE_STACK], *top = stack;
     alignas(32) float enter[WIDE];
     *top++ = (struct wide_pending){{0, WIDE_NODE, 0}, -INFINITY};
@@ -542,6 +547,8 @@ static void walk_packet(struct packet *p)
             top = push_sorted(top, node, touched_children(p, node, enter), enter);
         } else if (at.kind == WIDE_TRIANGLES) {
             const struct triangle_block *block = &wide->blocks[at.first];
+            if (p->any && ++leaves > LEAVES_LIMIT)
+                return false;
             unsigned met =
                 p->has_apex ? meet_seen_block(p, block, at.count) : meet_block(p, block, at.count);
             if (met)
@@ -551,6 +558,7 @@ static void walk_packet(struct packet *p)
             find_farthest(p, parts_of_rays(p->frames));
         }
     }
+    return true;
 }
 
 static bool packet_in_wide(const struct accel *a, const struct ray_batch *rays, bool any,
@@ -563,10 +571,7 @@ static bool packet_in_wide(const struct accel *a, const struct ray_batch *rays, 
     p.frames = &frames;
     p.any = any;
     frames_init(&frames, g, rays, g->spheres.n > 0, true, hits);
-    if (!packet_init(&p))
-        return false;
-    walk_packet(&p);
-    return true;
+    return packet_init(&p) && walk_packet(&p);
 }
 
 const struct wide_kernels WIDE_KERNELS = {closest_in_wide, any_in_wide, packet_in_wide};

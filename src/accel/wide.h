@@ -42,7 +42,7 @@ struct wide_kernels {
     bool (*any)(const struct accel *a, const struct ray *ray, const struct ray_frame *frame,
                 struct hit *hit);
     /* The nearest hits of all rays, or some; false when they have too little in common to be traced
-     * together, and then nothing is found out. */
+     * together, and then nothing is found out, whatever *hits holds. */
     bool (*packet)(const struct accel *a, const struct ray_batch *rays, bool any,
                    struct hit_batch *hits);
 };
