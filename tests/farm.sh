@@ -34,7 +34,7 @@ render() { "$wrt" render -q "$scene" -o "$@"; }
 
 # Kills at random moments until so many have hit a render under way.
 killed=0 round=0
-while [ $killed -lt "$kills" ]; do
+while [ $killed -lt "$kills" ] && [ $round -lt $((10 * kills)) ]; do
     read -ra way <<<"${ways[round++ % ${#ways[@]}]}"
     render whole.png "${way[@]}" || complain "${way[*]} failed"
     for ((tries = 0; tries < 40; tries++)); do
@@ -54,9 +54,10 @@ while [ $killed -lt "$kills" ]; do
     rm -f again.png journal
 done 2>killed.log
 grep -v Killed killed.log
+[ $killed -ge "$kills" ] || complain "only $killed renders were long enough to be killed"
 
 # A signal saves the journal and the picture so far; the second ends the program at once.
-slow=(--res 200x150 -s 2)
+slow=(--res 300x200 -s 3)
 render whole.png "${slow[@]}"
 for signal in INT TERM; do
     expected=$((128 + $(kill -l $signal)))
@@ -64,7 +65,8 @@ for signal in INT TERM; do
     env --default-signal=INT "$wrt" render -q "$scene" -o picture.png "${slow[@]}" --checkpoint journal \
         2>err &
     pid=$!
-    sleep 0.2
+    until [ -s journal ] || ! kill -0 $pid; do sleep 0.01; done
+    sleep 0.05
     kill -$signal $pid
     wait $pid
     status=$?
@@ -74,6 +76,7 @@ for signal in INT TERM; do
     grep -q "% of the picture, which is in 'picture.partial.png'" err || complain "said: $(cat err)"
     render picture.png "${slow[@]}" --checkpoint journal --resume
     cmp -s whole.png picture.png || complain "SIG$signal: other bytes"
+    [ ! -e picture.partial.png ] || complain "SIG$signal: the picture so far is still there"
     rm -f picture* journal
 done
 

@@ -414,9 +414,10 @@ static uint64_t any_in_list(const struct geometry *g, const struct ray_batch *ra
 {
     struct frame_batch f;
     struct hit_batch hits;
-    uint64_t all = UINT64_MAX >> (BATCH - rays->n), found = 0;
+    uint64_t found = 0;
     if (rays->n == 0)
         return 0;
+    const uint64_t all = UINT64_MAX >> (BATCH - rays->n);
     frames_for_list(&f, g, rays, list, &hits);
     for (uint32_t k = 0; k < list->n && found != all; k++) {
         meet(&f, list->at[k]);

@@ -321,3 +321,13 @@ bool file_identify(const char *path, struct file_id *id)
     *id = (struct file_id){(uint64_t)st.st_dev, (uint64_t)st.st_ino};
     return true;
 }
+
+bool file_same(const char *a, const char *b)
+{
+    const char *slash_a = strrchr(a, '/'), *slash_b = strrchr(b, '/');
+    struct file_id x, y;
+    if (file_identify(a, &x) && file_identify(b, &y))
+        return x.device == y.device && x.inode == y.inode;
+    return strcmp(slash_a ? slash_a + 1 : a, slash_b ? slash_b + 1 : b) == 0 &&
+           file_same_folder(a, b);
+}

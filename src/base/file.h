@@ -59,6 +59,9 @@ char *file_relocate(const char *from, const char *to, const char *name, size_t n
 /* True when the two paths lie in one folder, as far as can be told. */
 bool file_same_folder(const char *a, const char *b);
 
+/* True when both paths name one file, whether it is there yet or not. */
+bool file_same(const char *a, const char *b);
+
 /* Identity of an existing file, to load each one once; false when it cannot be told. */
 struct file_id {
     uint64_t device, inode;

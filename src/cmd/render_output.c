@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* The bits a channel that a file of this format may have; the first is meant without --bits. */
 static const struct {
@@ -24,12 +25,23 @@ static const struct {
     [PICTURE_EXR] = {"OpenEXR", {32, 16}},
 };
 
+/* By its suffix. */
+static bool names_picture(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    enum picture_format format;
+    return strchr(slash ? slash : path, '.') && picture_format_of(path, &format);
+}
+
 int render_choose_format(struct render_run *r)
 {
     const struct options *o = r->options;
     if (strcmp(r->output, "-") == 0 && (o->stats == STATS_JSON || o->format == DIAG_FORMAT_JSON))
         return usage_error("the picture and JSON cannot both go to standard output");
     r->bits = o->bits;
+    if (o->parts > 0 && names_picture(r->output))
+        return usage_error("--part writes tiles for 'wrt merge', and '%s' is a picture's name",
+                           r->output);
     if (o->parts > 0) {
         r->bits = o->bits ? o->bits : 8;
         return 0;
@@ -92,8 +104,25 @@ static const char *output_obstacle(const char *path)
     return reason;
 }
 
+/* What would be lost under the output's name; 0 or an exit status. */
+static int check_names(const struct render_run *r)
+{
+    const struct options *o = r->options;
+    if (strcmp(r->output, "-") == 0)
+        return 0;
+    if (file_same(r->output, o->scenes.at[0]))
+        return usage_error("'%s' is the scene; it would be lost under what is written", r->output);
+    if (o->checkpoint && file_same(r->output, o->checkpoint))
+        return usage_error("--checkpoint: the journal cannot be '%s', which the picture goes to",
+                           o->checkpoint);
+    return 0;
+}
+
 int render_check_output(struct render_run *r)
 {
+    int status = check_names(r);
+    if (status != 0)
+        return status;
     const char *obstacle = output_obstacle(r->output);
     return obstacle ? report_output(r, r->output, obstacle) : 0;
 }
@@ -182,24 +211,6 @@ static const char *write_part(struct render_run *r)
     return reason;
 }
 
-int render_finish(struct render_run *r)
-{
-    double start = thread_seconds();
-    char why[IMAGE_REASON_BYTES];
-    const char *reason = r->head.parts > 0 ? write_part(r) : write_picture(r, r->output, why);
-    r->stats.write_s += thread_seconds() - start;
-    int status = reason ? report_output(r, r->output, reason) : 0;
-    if (status == 0 && r->frames && (reason = render_frame_record(r)))
-        status = report_output(r, "the list of frames", reason);
-    if (r->journal) {
-        reason = journal_close(r->journal, status == 0);
-        r->journal = NULL;
-        if (reason)
-            status = report_output(r, r->options->checkpoint, reason);
-    }
-    return status;
-}
-
 /* dir/name.png becomes dir/name.partial.png; for the caller to free. */
 static char *partial_name(const char *path)
 {
@@ -218,6 +229,35 @@ static bool output_is_regular(const char *path)
 {
     struct stat st;
     return strcmp(path, "-") != 0 && (stat(path, &st) != 0 || S_ISREG(st.st_mode));
+}
+
+/* What an interrupted run left is no part of the picture any more. */
+static void remove_partial(const struct render_run *r)
+{
+    char *path = partial_name(r->output);
+    if (r->head.parts == 0 && output_is_regular(r->output))
+        unlink(path);
+    free(path);
+}
+
+int render_finish(struct render_run *r)
+{
+    double start = thread_seconds();
+    char why[IMAGE_REASON_BYTES];
+    const char *reason = r->head.parts > 0 ? write_part(r) : write_picture(r, r->output, why);
+    r->stats.write_s += thread_seconds() - start;
+    int status = reason ? report_output(r, r->output, reason) : 0;
+    if (status == 0 && r->options->resume)
+        remove_partial(r);
+    if (status == 0 && r->frames && (reason = render_frame_record(r)))
+        status = report_output(r, "the list of frames", reason);
+    if (r->journal) {
+        reason = journal_close(r->journal, status == 0);
+        r->journal = NULL;
+        if (reason)
+            status = report_output(r, r->options->checkpoint, reason);
+    }
+    return status;
 }
 
 int render_save(struct render_run *r)

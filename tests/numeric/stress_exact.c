@@ -356,9 +356,18 @@ static double off_triangle(const struct triangle_case *c, struct vec3 p)
     return (double)(wide_abs(off) / wide_sqrt(wide_dot(n, n)));
 }
 
-/* Of any kind; *off is the distance of the hit point from the surface.  False: nothing was hit. */
+/* A point of a surface, and how well it can be known. */
+struct hit_point {
+    struct ray ray;
+    struct vec3 p;
+    double off;    /* its distance from the surface */
+    double extent; /* its largest coordinate or that of what the surface is told by: a long
+                    * cylinder's far end is told by its base */
+};
+
+/* Of any kind.  False: nothing was hit. */
 static bool any_hit_point(struct dice *d, double size, double offset, double farthest,
-                          struct ray *ray, struct vec3 *p, double *off)
+                          struct hit_point *h)
 {
     struct hit hit;
     struct vec3 normal;
@@ -366,10 +375,11 @@ static bool any_hit_point(struct dice *d, double size, double offset, double far
     if (kind == PRIM_TRIANGLE) {
         struct triangle_case c = triangle_case(d, size, offset);
         bool hits = c.length <= farthest && c.aspect < 10 && shoot(&c.g, &c.ray, &hit);
-        *ray = c.ray;
+        h->ray = c.ray;
         if (hits) {
-            *p = geometry_hit_point(&c.g, &c.ray, &hit, &normal);
-            *off = off_triangle(&c, *p);
+            h->p = geometry_hit_point(&c.g, &c.ray, &hit, &normal);
+            h->off = off_triangle(&c, h->p);
+            h->extent = vec3_largest(h->p);
         }
         geometry_free(&c.g);
         return hits;
@@ -377,12 +387,14 @@ static bool any_hit_point(struct dice *d, double size, double offset, double far
     struct case_of_solid c =
         kind == PRIM_SPHERE ? sphere_case(d, size, offset) : cylinder_case(d, size, offset);
     bool hits = c.length <= farthest && shoot(&c.g, &c.ray, &hit);
-    *ray = c.ray;
+    h->ray = c.ray;
     if (hits) {
-        *p = geometry_hit_point(&c.g, &c.ray, &hit, &normal);
-        *off = kind == PRIM_SPHERE
-                   ? off_sphere(c.g.spheres.at, wide_seen(*p, c.g.spheres.at[0].center))
-                   : off_cylinder(c.g.cylinders.at, wide_seen(*p, c.g.cylinders.at[0].base));
+        bool round = kind == PRIM_SPHERE;
+        struct vec3 told = round ? c.g.spheres.at[0].center : c.g.cylinders.at[0].base;
+        h->p = geometry_hit_point(&c.g, &c.ray, &hit, &normal);
+        h->off = round ? off_sphere(c.g.spheres.at, wide_seen(h->p, told))
+                       : off_cylinder(c.g.cylinders.at, wide_seen(h->p, told));
+        h->extent = fmax(vec3_largest(h->p), vec3_largest(told));
     }
     geometry_free(&c.g);
     return hits;
@@ -391,11 +403,10 @@ static bool any_hit_point(struct dice *d, double size, double offset, double far
 static void try_hit_points(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases) {
-        double size = magnitude(d, 1e-8, 1e8), offset = size * uniform(d, 0, 100), off;
-        struct ray ray;
-        struct vec3 p;
-        if (any_hit_point(d, size, offset, 1e9 * size, &ray, &p, &off)) {
-            tally_measure(tally, off / (EPS * (vec3_largest(p) + size)));
+        double size = magnitude(d, 1e-8, 1e8), offset = size * uniform(d, 0, 100);
+        struct hit_point h;
+        if (any_hit_point(d, size, offset, 1e9 * size, &h)) {
+            tally_measure(tally, h.off / (EPS * (h.extent + size)));
             tally->cases++;
         }
     }
@@ -458,13 +469,12 @@ static void try_instances(struct dice *d, uint64_t cases, struct tally *tally)
 static void try_translations(struct dice *d, uint64_t cases, struct tally *tally)
 {
     while (tally->cases < cases) {
-        double far = ldexp(1, 20 + (int)below(d, 11)), off;
-        struct ray ray;
-        struct vec3 p;
-        if (any_hit_point(d, 1, far, 100, &ray, &p, &off)) {
-            double length = fmax(vec3_largest(p), 0x1p20);
-            tally_measure(tally, off / (EPS * length));
-            tally_measure(tally, off_line(&ray, p) / (EPS * length));
+        double far = ldexp(1, 20 + (int)below(d, 11));
+        struct hit_point h;
+        if (any_hit_point(d, 1, far, 100, &h)) {
+            double length = fmax(vec3_largest(h.p), 0x1p20);
+            tally_measure(tally, h.off / (EPS * length));
+            tally_measure(tally, off_line(&h.ray, h.p) / (EPS * length));
             tally->cases++;
         }
     }
