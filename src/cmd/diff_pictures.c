@@ -46,7 +46,7 @@ static bool load(struct comparing *c)
              a->width, a->height, b->width, b->height);
     if (a->width != b->width || a->height != b->height)
         refuse(c, why);
-    else if (!a->bytes != !b->bytes)
+    else if (!a->floats != !b->floats)
         refuse(c, "a picture of floats, which hold light, is not compared with one of bytes");
     return c->frontend.diag.errors == 0;
 }

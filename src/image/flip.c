@@ -228,6 +228,9 @@ static struct vec3 light_at(const struct job *j, const struct picture *p, size_t
 {
     if (p->bytes)
         return vec3(j->light[p->bytes[at]], j->light[p->bytes[at + 1]], j->light[p->bytes[at + 2]]);
+    if (p->words)
+        return vec3(srgb_decode(p->words[at] / 65535.0), srgb_decode(p->words[at + 1] / 65535.0),
+                    srgb_decode(p->words[at + 2] / 65535.0));
     return vec3(clamp01((double)p->floats[at]), clamp01((double)p->floats[at + 1]),
                 clamp01((double)p->floats[at + 2]));
 }

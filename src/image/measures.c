@@ -14,11 +14,19 @@ const char *const measure_names[MEASURES] = {
     [MEASURE_FLIP] = "flip",
 };
 
-/* Bytes are subtracted as whole numbers: a step of one is 1/255, not more. */
+/* What is stored of a channel, in 16 bits. */
+static int word_at(const struct picture *p, size_t at)
+{
+    return p->words ? p->words[at] : 0x101 * p->bytes[at];
+}
+
+/* Bytes and words are subtracted as whole numbers: a step of one is 1/255 or 1/65535, not more. */
 static double channel_difference(const struct picture *a, const struct picture *b, size_t at)
 {
-    if (a->bytes)
+    if (a->bytes && b->bytes)
         return abs(a->bytes[at] - b->bytes[at]) / 255.0;
+    if (!a->floats)
+        return abs(word_at(a, at) - word_at(b, at)) / 65535.0;
     double x = (double)a->floats[at], y = (double)b->floats[at];
     if (x == y || (isnan(x) && isnan(y)))
         return 0;

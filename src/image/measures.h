@@ -4,8 +4,8 @@
 
 #include "image/picture.h"
 
-/* The difference of a pixel is the largest of its three channels; bytes count from 0 to 1, floats
- * as they are.  What is no number differs by infinity from all that is. */
+/* The difference of a pixel is the largest of its three channels; bytes and words count from 0 to
+ * 1, floats as they are.  What is no number differs by infinity from all that is. */
 enum measure {
     MEASURE_MAX,   /* the largest difference of a pixel */
     MEASURE_RMSE,  /* over all channels: root of the mean square, */
@@ -25,7 +25,7 @@ struct measures {
     uint32_t x, y; /* the first pixel that differs by MEASURE_MAX */
 };
 
-/* The pictures have one size and both hold bytes or both floats.  `flip` has room for a float a
+/* The pictures have one size and both hold floats or neither does.  `flip` has room for a float a
  * pixel and takes flip_map. */
 void measure_pictures(const struct picture *a, const struct picture *b, unsigned threads,
                       float *flip, struct measures *out);

@@ -314,16 +314,13 @@ void *picture_encode(const struct picture *p, enum picture_format format, size_t
 }
 
 /* Hands the samples over; frees the image. */
-static struct picture *picture_of_image(struct image *i, char reason[IMAGE_REASON_BYTES])
+static struct picture *picture_of_image(struct image *i)
 {
-    struct picture *p = NULL;
-    if (i->data8) {
-        p = mem_zalloc(1, sizeof *p);
-        *p = (struct picture){.width = i->width, .height = i->height, .gain = 1, .bytes = i->data8};
-        i->data8 = NULL;
-    } else {
-        image_reason(reason, "a picture of 16 bits a channel is not read here; one of 8 is");
-    }
+    struct picture *p = mem_zalloc(1, sizeof *p);
+    *p = (struct picture){
+        .width = i->width, .height = i->height, .gain = 1, .bytes = i->data8, .words = i->data16};
+    i->data8 = NULL;
+    i->data16 = NULL;
     image_free(i);
     return p;
 }
@@ -345,5 +342,5 @@ struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_RE
                      s->name);
     else
         image_reason(reason, n ? "not a PNG, PPM, PFM or OpenEXR picture" : "the file is empty");
-    return i ? picture_of_image(i, reason) : NULL;
+    return i ? picture_of_image(i) : NULL;
 }

@@ -118,7 +118,7 @@ void *picture_encode(const struct picture *p, enum picture_format format, size_t
 /* True when the bytes start as files of pictures do, read or not. */
 bool picture_recognised(const void *bytes, size_t n);
 
-/* Reads a PNG of at most 8 bits a channel, a binary PPM, a PFM or an OpenEXR file back. */
+/* Reads a PNG, a binary PPM, a PFM or an OpenEXR file back. */
 struct picture *picture_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES]);
 
 #endif

@@ -11,6 +11,7 @@
 #   needs    a shell test; when it fails the case is skipped
 # and any input files.  A signal, a sanitizer report or 60 seconds without an end fail any case.
 # $srcdir names the source folder (and stands for it in out and err), $WRT_SHARED the reference data.
+# WRT_EVERY=n takes every n-th case only.
 # WRT is the program under test, WRT_WRAPPER a command to run it under, such as valgrind.
 set -u
 export LC_ALL=C TERM=dumb
@@ -177,7 +178,7 @@ for place in "${@:-.}"; do
         exit 2
     fi
     find "$here/$place" -type f -name cmd
-done | sed "s|/\./|/|; s|/cmd\$||" | sort -u >"$work/cases"
+done | sed "s|/\./|/|; s|/cmd\$||" | sort -u | awk -v every="${WRT_EVERY:-1}" 'NR % every == 0' >"$work/cases"
 
 cores=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 tr '\n' '\0' <"$work/cases" | xargs -0 -n 1 -P "$cores" "$BASH" "$here/run.sh" --one-case "$work" $update
