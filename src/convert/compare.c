@@ -268,24 +268,8 @@ static void compare_instances(struct subject *s, const struct geometry *ga, uint
         compare_all_prims(s, shapes_a, 0, shapes_b, 0, (uint32_t)shapes_a->prims.n);
 }
 
-/* The triangles that a surface's normals and texture coordinates belong to. */
-struct faces {
-    const struct geometry *geometry;
-    uint32_t first_prim, n, first_vertex;
-};
-
-static struct faces faces_of(const struct scene *scene, const struct surface *surface)
-{
-    const struct geometry *g = &scene->geometry;
-    const struct prim *p = &g->prims.at[surface->first_prim];
-    if (surface->prim_count != 1 || p->kind != PRIM_INSTANCE)
-        return (struct faces){g, surface->first_prim, surface->prim_count, surface->first_vertex};
-    const struct geometry *shapes = &g->prototypes.at[g->instances.at[p->index].prototype]->shapes;
-    return (struct faces){shapes, 0, (uint32_t)shapes->prims.n, 0};
-}
-
-static const struct vec3 *corner_normal(const struct surface *surface, const struct faces *f,
-                                        uint32_t n, int corner)
+static const struct vec3 *corner_normal(const struct surface *surface,
+                                        const struct surface_faces *f, uint32_t n, int corner)
 {
     const struct geometry *g = f->geometry;
     const struct prim *p = &g->prims.at[f->first_prim + n];
@@ -297,7 +281,7 @@ static const struct vec3 *corner_normal(const struct surface *surface, const str
 /* What shading interpolates, or the first face where it differs. */
 static void compare_corners(struct subject *s, const struct surface *a, const struct surface *b)
 {
-    struct faces f = faces_of(s->a, a), g = faces_of(s->b, b);
+    struct surface_faces f = surface_faces(s->a, a), g = surface_faces(s->b, b);
     size_t before = s->out->count;
     if (f.n != g.n || (a->normals == NULL && a->uvs == NULL))
         return;

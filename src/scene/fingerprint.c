@@ -156,26 +156,10 @@ static uint64_t hash_material(const struct scene *s, struct sharing *sharing,
 
 /* ---- surfaces ---- */
 
-/* The triangles that a surface's normals and texture coordinates belong to. */
-struct faces {
-    const struct geometry *geometry;
-    uint32_t first_prim, n, first_vertex;
-};
-
-static struct faces faces_of(const struct scene *scene, const struct surface *surface)
-{
-    const struct geometry *g = &scene->geometry;
-    const struct prim *p = &g->prims.at[surface->first_prim];
-    if (p->kind != PRIM_INSTANCE)
-        return (struct faces){g, surface->first_prim, surface->prim_count, surface->first_vertex};
-    const struct geometry *shapes = &g->prototypes.at[g->instances.at[p->index].prototype]->shapes;
-    return (struct faces){shapes, 0, (uint32_t)shapes->prims.n, 0};
-}
-
 static uint64_t hash_normals(const struct scene *scene, struct sharing *sharing,
                              const struct surface *surface)
 {
-    struct faces f = faces_of(scene, surface);
+    struct surface_faces f = surface_faces(scene, surface);
     uint64_t known;
     struct hash h;
     if (!surface->normals)
@@ -205,7 +189,7 @@ static uint64_t hash_uvs(const struct scene *scene, struct sharing *sharing,
     if (find_shared(sharing, surface->uvs, &known))
         return known;
     hash_begin(&h, 0);
-    hash_add(&h, surface->uvs, (size_t)3 * faces_of(scene, surface).n * sizeof *surface->uvs);
+    hash_add(&h, surface->uvs, (size_t)3 * surface_faces(scene, surface).n * sizeof *surface->uvs);
     return note_shared(sharing, surface->uvs, &h);
 }
 

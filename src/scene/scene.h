@@ -175,6 +175,14 @@ struct vec3 surface_normal(const struct scene *s, const struct surface *surface,
 /* The triangle's number within its surface, to which normals and texture coordinates belong. */
 size_t surface_face(const struct surface *surface, const struct spot *spot);
 
+/* The triangles that a surface's normals and texture coordinates belong to, those of an instance in
+ * the space of its shapes. */
+struct surface_faces {
+    const struct geometry *geometry;
+    uint32_t first_prim, n, first_vertex;
+};
+struct surface_faces surface_faces(const struct scene *s, const struct surface *surface);
+
 /* The normal of corner i of a smooth mesh's triangle, of length 1 or 0. */
 struct vec3 surface_corner_normal(const struct surface *surface, const struct spot *spot, int i);
 

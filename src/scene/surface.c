@@ -41,6 +41,17 @@ size_t surface_face(const struct surface *surface, const struct spot *spot)
     return spot->instance ? spot->prim : spot->prim - surface->first_prim;
 }
 
+struct surface_faces surface_faces(const struct scene *s, const struct surface *surface)
+{
+    const struct geometry *g = &s->geometry;
+    const struct prim *p = &g->prims.at[surface->first_prim];
+    if (surface->prim_count != 1 || p->kind != PRIM_INSTANCE)
+        return (struct surface_faces){g, surface->first_prim, surface->prim_count,
+                                      surface->first_vertex};
+    const struct geometry *shapes = &g->prototypes.at[g->instances.at[p->index].prototype]->shapes;
+    return (struct surface_faces){shapes, 0, (uint32_t)shapes->prims.n, 0};
+}
+
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p)
 {
