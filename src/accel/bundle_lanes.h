@@ -137,11 +137,6 @@ static void meet_sphere(struct frame_batch *f, struct target target)
 /* ---- cylinders, see cylinder_distance ----------------------------------------------------------
  */
 
-static inline struct vvec3 v3_cross_plain(struct vvec3 a, struct vvec3 b)
-{
-    return (struct vvec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 struct stretch_lanes {
     vreal t[2], part[2];
 };

@@ -77,6 +77,11 @@ static inline vreal v_real(vint32 a)
     return __builtin_convertvector(a, vreal);
 }
 
+static inline vint v_long(vint32 a)
+{
+    return __builtin_convertvector(a, vint);
+}
+
 static inline vreal v_all(double a)
 {
     return a - (vreal){0};
@@ -145,6 +150,18 @@ static inline vreal v_select(vmask m, vreal a, vreal b)
 static inline vreal v_sqrt(vreal a)
 {
     return _mm512_sqrt_pd(a);
+}
+
+/* from[at], lane by lane. */
+static inline vreal v_gather(const double *from, vint at)
+{
+    return _mm512_i64gather_pd((__m512i)at, from, sizeof *from);
+}
+
+static inline vint v_gather_uint32(const uint32_t *from, vint at)
+{
+    return (vint)_mm512_cvtepu32_epi64(
+        _mm512_i64gather_epi32((__m512i)at, (const int *)from, sizeof *from));
 }
 
 static inline vreal v_truncate(vreal a)
@@ -231,6 +248,17 @@ static inline vreal v_sqrt(vreal a)
     return _mm256_sqrt_pd(a);
 }
 
+static inline vreal v_gather(const double *from, vint at)
+{
+    return _mm256_i64gather_pd(from, (__m256i)at, sizeof *from);
+}
+
+static inline vint v_gather_uint32(const uint32_t *from, vint at)
+{
+    return (vint)_mm256_cvtepu32_epi64(
+        _mm256_i64gather_epi32((const int *)from, (__m256i)at, sizeof *from));
+}
+
 static inline vreal v_truncate(vreal a)
 {
     return _mm256_round_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
@@ -285,6 +313,16 @@ static inline vreal v_sqrt(vreal a)
     return (vreal){sqrt(a[0]), sqrt(a[1])};
 }
 
+static inline vreal v_gather(const double *from, vint at)
+{
+    return (vreal){from[at[0]], from[at[1]]};
+}
+
+static inline vint v_gather_uint32(const uint32_t *from, vint at)
+{
+    return (vint){from[at[0]], from[at[1]]};
+}
+
 static inline vreal v_truncate(vreal a)
 {
     return (vreal){trunc(a[0]), trunc(a[1])};
@@ -323,6 +361,18 @@ static inline bool v_any(vmask m)
 }
 
 #endif
+
+/* Lanes 0 to n. */
+static inline vmask v_first(uint32_t n)
+{
+    static const double numbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    return v_less(v_load(numbers), v_all(n));
+}
+
+static inline vint v_select_int(vmask m, vint a, vint b)
+{
+    return (vint)v_select(m, (vreal)a, (vreal)b);
+}
 
 /* a b + c, rounded once or twice: for bounds only. */
 static inline vreal v_bound(vreal a, vreal b, vreal c)
@@ -373,6 +423,15 @@ static inline void v3_store(struct vec3_batch *b, uint32_t i, struct vvec3 a)
     v_store(b->z + i, a.z);
 }
 
+/* The element `at` of an array of which `from` is in the first; step: doubles from one to the next.
+ */
+static inline struct vvec3 v3_gather(const struct vec3 *from, vint at, int step)
+{
+    const double *x = &from->x;
+    at *= step;
+    return (struct vvec3){v_gather(x, at), v_gather(x + 1, at), v_gather(x + 2, at)};
+}
+
 static inline struct vvec3 v3_all(struct vec3 a)
 {
     return (struct vvec3){v_all(a.x), v_all(a.y), v_all(a.z)};
@@ -407,6 +466,12 @@ static inline struct vvec3 v3_mad(struct vvec3 a, vreal s, struct vvec3 b)
 static inline vreal v3_dot(struct vvec3 a, struct vvec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* See vec3_cross_plain. */
+static inline struct vvec3 v3_cross_plain(struct vvec3 a, struct vvec3 b)
+{
+    return (struct vvec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 static inline struct vvec3 v3_normalize(struct vvec3 a)

@@ -51,13 +51,13 @@ static void add_refraction(struct level *level, const struct scene *scene,
     path->index = inside ? 1 : ior;
 }
 
-/* All points are of one material, and each mirrors some light: false where that is not so. */
+/* All points are of one surface, and each mirrors some light: false where that is not so. */
 static bool reflect_all(const struct worker *w, struct level *level)
 {
     const struct shade_batch *points = &w->points;
     const struct material *m = points->finish[0]->material;
     struct ray_batch *rays = &level->reflected.rays;
-    bool none = !points->in_order || !vec3_is_zero(m->refraction);
+    bool none = !points->in_order || !points->one_surface || !vec3_is_zero(m->refraction);
     for (uint32_t k = 0; k < points->n && !none; k++) {
         struct path *path = &level->reflected.paths[k];
         path->weight = vec3_mul(vec3_get(&w->light.intensity, k), m->reflection);
@@ -71,7 +71,8 @@ static bool reflect_all(const struct worker *w, struct level *level)
     w->tracer->kernels->reflect(points, &rays->direction);
     vec3_copy(&rays->origin, points->n, &points->p);
     fill(rays->t_max, 0, points->n, RAY_UNBOUNDED);
-    fill(rays->from, 0, points->n, points->prim[0]);
+    for (uint32_t k = 0; k < points->n; k++)
+        rays->from[k] = points->prim[k];
     rays->n = points->n;
     return true;
 }

@@ -2,6 +2,7 @@
  * RENDER_KERNELS to the name of its table.
  *
  * The same operations in the same order as the reference in kernels_plain.c. */
+#include "render/hit_lanes.h"
 #include "render/sight_lanes.h"
 
 static void aim(const struct lens *lens, const double *x, const double *y, uint32_t n,
@@ -22,129 +23,6 @@ static void fill_vectors(struct vec3_batch *to, uint32_t first, uint32_t end, st
     struct vvec3 all = v3_all(value);
     for (uint32_t i = first; i < end; i += LANES)
         v3_store(to, i, all);
-}
-
-/* ---- points on primitives -------------------------------------------------------------------- */
-
-static void sphere_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
-{
-    struct vvec3 center = v3_load(&h->at, i), f = v3_sub(v3_load(h->origin, i), center);
-    struct vvec3 normal = v3_mad(f, v_load(points->t + i), v3_load(&points->incoming, i));
-    normal = v3_normalize(normal);
-    v3_store(&points->normal, i, normal);
-    v3_store(&points->p, i, v3_mad(center, v_load(h->radius + i), normal));
-}
-
-static void cylinder_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
-{
-    struct vvec3 base = v3_load(&h->at, i), axis = v3_load(&h->along, i);
-    vreal zero = v_all(0), radius = v_load(h->radius + i), height = v_load(h->height + i);
-    vreal part = v_load(h->part + i);
-    vmask side = v_equal(part, v_all(CYLINDER_SIDE)), top = v_equal(part, v_all(CYLINDER_TOP));
-    struct vvec3 p = v3_sub(v3_load(h->origin, i), base);
-    p = v3_mad(p, v_load(points->t + i), v3_load(&points->incoming, i));
-    vreal z = v3_dot(p, axis);
-    struct vvec3 across = v3_mad(p, -z, axis);
-    vreal length = v_sqrt(v3_dot(across, across));
-    struct vvec3 outwards = v3_scale(across, 1 / length);
-    across = v3_select(side | v_less(radius, length), v3_scale(outwards, radius), across);
-    vmask low = v_equal(part, v_all(CYLINDER_BASE)) | v_less(z, zero);
-    z = v_select(low, zero, v_select(top | v_less(height, z), height, z));
-    struct vvec3 cap = v3_select(top, axis, (struct vvec3){-axis.x, -axis.y, -axis.z});
-    v3_store(&points->normal, i, v3_select(side, outwards, cap));
-    v3_store(&points->p, i, v3_add(base, v3_mad(across, z, axis)));
-}
-
-static void triangle_points(const struct hit_shapes *h, uint32_t i, struct shade_batch *points)
-{
-    struct vvec3 normal = v3_load(&h->along, i), corner = v3_load(&h->at, i);
-    struct vvec3 p = v3_load(h->origin, i);
-    p = v3_mad(p, v_load(points->t + i), v3_load(&points->incoming, i));
-    v3_store(&points->normal, i, normal);
-    v3_store(&points->p, i, v3_mad(p, v3_dot(normal, v3_sub(corner, p)), normal));
-}
-
-/* The last vector of a kind reaches into the next kind's points, which come later. */
-static void hit_points(const struct geometry *g, const struct hit_shapes *shapes,
-                       struct shade_batch *points)
-{
-    (void)g;
-    const uint32_t *first = shapes->first;
-    for (uint32_t i = first[PRIM_SPHERE]; i < first[PRIM_SPHERE + 1]; i += LANES)
-        sphere_points(shapes, i, points);
-    for (uint32_t i = first[PRIM_CYLINDER]; i < first[PRIM_CYLINDER + 1]; i += LANES)
-        cylinder_points(shapes, i, points);
-    for (uint32_t i = first[PRIM_TRIANGLE]; i < first[PRIM_TRIANGLE + 1]; i += LANES)
-        triangle_points(shapes, i, points);
-}
-
-/* Where plain products are not enough, see geometry_weights: one by one. */
-static void weigh_exactly(const struct geometry *g, const struct hit_shapes *h, unsigned lanes,
-                          uint32_t i, struct shade_batch *points)
-{
-    for (; lanes; lanes &= lanes - 1) {
-        uint32_t k = i + (uint32_t)__builtin_ctz(lanes);
-        struct hit hit = {.prim = points->prim[k]};
-        struct ray ray = {.origin = vec3_get(h->origin, k),
-                          .direction = vec3_get(&points->incoming, k)};
-        geometry_weights(g, &ray, &hit);
-        points->b1[k] = hit.b1;
-        points->b2[k] = hit.b2;
-    }
-}
-
-struct vpoint2 {
-    vreal x, y;
-};
-
-/* The lanes whose ray runs along x most, and along y. */
-struct shear {
-    vmask along_x, along_y;
-    vreal x, y;
-};
-
-static inline struct shear shear_of(struct vvec3 d)
-{
-    vreal x = v_abs(d.x), y = v_abs(d.y), z = v_abs(d.z);
-    vmask along_x = v_less(y, x) & v_less(z, x), along_y = v_less(z, y) & v_not(along_x);
-    vreal by = v_select(along_x, d.x, v_select(along_y, d.y, d.z));
-    return (struct shear){along_x, along_y,
-                          v_select(along_x, d.y, v_select(along_y, d.z, d.x)) / by,
-                          v_select(along_x, d.z, v_select(along_y, d.x, d.y)) / by};
-}
-
-static inline struct vpoint2 sheared(struct vvec3 p, const struct shear *s)
-{
-    vreal along = v_select(s->along_x, p.x, v_select(s->along_y, p.y, p.z));
-    vreal x = v_select(s->along_x, p.y, v_select(s->along_y, p.z, p.x));
-    vreal y = v_select(s->along_x, p.z, v_select(s->along_y, p.x, p.y));
-    return (struct vpoint2){x - s->x * along, y - s->y * along};
-}
-
-static inline vreal largest_of_3(vreal a, vreal b, vreal c)
-{
-    return v_max(v_max(v_abs(a), v_abs(b)), v_abs(c));
-}
-
-static void weights(const struct geometry *g, const struct hit_shapes *h,
-                    struct shade_batch *points)
-{
-    uint32_t end = h->first[PRIM_TRIANGLE + 1];
-    for (uint32_t i = h->first[PRIM_TRIANGLE]; i < end; i += LANES) {
-        struct vvec3 o = v3_load(h->origin, i);
-        struct shear shear = shear_of(v3_load(&points->incoming, i));
-        struct vpoint2 a = sheared(v3_sub(v3_load(&h->at, i), o), &shear);
-        struct vpoint2 b = sheared(v3_sub(v3_load(&h->second, i), o), &shear);
-        struct vpoint2 c = sheared(v3_sub(v3_load(&h->third, i), o), &shear);
-        vreal u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
-        vreal sum = u + v + w, largest = largest_of_3(a.x, b.x, c.x) * largest_of_3(a.y, b.y, c.y);
-        v_store(points->b1 + i, v / sum);
-        v_store(points->b2 + i, w / sum);
-        unsigned unsure = v_bits(v_not(v_at_most(largest, 16 * v_abs(sum))));
-        if (end - i < LANES)
-            unsure &= (1u << (end - i)) - 1;
-        weigh_exactly(g, h, unsure, i, points);
-    }
 }
 
 /* ---- textures, see texture_fetch ---------------------------------------------------------------
@@ -279,20 +157,6 @@ static void face(struct shade_batch *points)
     for (uint32_t i = 0; i < points->n; i += LANES)
         v_store(points->facing + i,
                 v3_dot(v3_load(&points->normal, i), v3_load(&points->incoming, i)));
-}
-
-static uint64_t outside(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
-                        uint32_t end)
-{
-    uint64_t bits = 0;
-    for (uint32_t i = first; i < end; i += LANES) {
-        struct vvec3 at = v3_load(p, i);
-        vmask holds = v_equal(v_all(0), v_all(0));
-        for (int k = 0; k < 3; k++)
-            holds &= v_at_most(v_all(fence->least[k]), v3_dot(v3_all(fence->inwards[k]), at));
-        bits |= (uint64_t)v_bits(v_not(holds)) << i;
-    }
-    return end < BATCH ? bits & ((UINT64_C(1) << end) - 1) : bits;
 }
 
 static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
@@ -449,17 +313,14 @@ const struct render_kernels RENDER_KERNELS = {
     .aim = aim,
     .fill = fill_vectors,
     .hit_points = hit_points,
-    .weights = weights,
     .texels = texels,
     .bend = bend,
     .face = face,
-    .outside = outside,
     .aim_at = aim_at,
     .add_light = add_light,
     .add_modern = add_modern,
     .front = front,
     .give = give,
-    .smoothen = smoothen,
     .reflect = reflect,
     .bounds = bounds,
     .pack = pack,

@@ -10,36 +10,37 @@ static void aim(const struct lens *lens, const double *x, const double *y, uint3
         vec3_put(directions, i, lens_direction(lens, x[i], y[i]));
 }
 
-static struct ray ray_to(const struct hit_shapes *shapes, const struct shade_batch *points,
-                         uint32_t i)
+void place_point(const struct scene *scene, const struct hit_shapes *shapes, uint32_t k,
+                 struct shade_batch *points)
 {
-    return (struct ray){.origin = vec3_get(shapes->origin, i),
-                        .direction = vec3_get(&points->incoming, i)};
+    const struct geometry *g = &scene->geometry;
+    const struct surface *surface = &scene->surfaces.at[points->surface[k]];
+    struct ray ray = {.origin = vec3_get(shapes->origin, k),
+                      .direction = vec3_get(&points->incoming, k)};
+    struct hit hit = {
+        .t = points->t[k], .prim = points->prim[k], .part = (uint32_t)shapes->part[k]};
+    struct vec3 face, p = geometry_hit_point(g, &ray, &hit, &face);
+    if (g->prims.at[hit.prim].kind == PRIM_TRIANGLE)
+        p = triangle_settle(g, hit.prim, p, vec3_largest(p));
+    if (surface_interpolates(surface))
+        geometry_weights(g, &ray, &hit);
+    points->b1[k] = hit.b1;
+    points->b2[k] = hit.b2;
+    vec3_put(&points->p, k, p);
+    vec3_put(&points->normal, k, surface_normal(scene, surface, &hit, face));
+    if (!points->curved)
+        return;
+    struct vec3 outwards = vec3_dot(face, ray.direction) > 0 ? vec3_neg(face) : face;
+    vec3_put(&points->geometric, k, surface->flip ? vec3_neg(face) : face);
+    vec3_put(&points->lifted, k,
+             surface->normals ? surface_lift(scene, surface, &hit, p, outwards) : p);
 }
 
-static void hit_points(const struct geometry *g, const struct hit_shapes *shapes,
+static void hit_points(const struct scene *scene, const struct hit_shapes *shapes,
                        struct shade_batch *points)
 {
-    for (uint32_t i = 0; i < points->n; i++) {
-        struct ray ray = ray_to(shapes, points, i);
-        struct hit hit = {
-            .t = points->t[i], .prim = points->prim[i], .part = (uint32_t)shapes->part[i]};
-        struct vec3 normal;
-        vec3_put(&points->p, i, geometry_hit_point(g, &ray, &hit, &normal));
-        vec3_put(&points->normal, i, normal);
-    }
-}
-
-static void weights(const struct geometry *g, const struct hit_shapes *shapes,
-                    struct shade_batch *points)
-{
-    for (uint32_t i = shapes->first[PRIM_TRIANGLE]; i < shapes->first[PRIM_TRIANGLE + 1]; i++) {
-        struct ray ray = ray_to(shapes, points, i);
-        struct hit hit = {.prim = points->prim[i]};
-        geometry_weights(g, &ray, &hit);
-        points->b1[i] = hit.b1;
-        points->b2[i] = hit.b2;
-    }
+    for (uint32_t k = 0; k < points->n; k++)
+        place_point(scene, shapes, k, points);
 }
 
 static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
@@ -63,15 +64,6 @@ static void face(struct shade_batch *points)
 {
     for (uint32_t i = 0; i < points->n; i++)
         points->facing[i] = vec3_dot(vec3_get(&points->normal, i), vec3_get(&points->incoming, i));
-}
-
-static uint64_t outside(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
-                        uint32_t end)
-{
-    uint64_t bits = 0;
-    for (uint32_t i = first; i < end; i++)
-        bits |= (uint64_t)!fence_holds(fence, vec3_get(p, i)) << i;
-    return bits;
 }
 
 static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
@@ -122,33 +114,6 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
         }
         vec3_put(&sums->direct, i,
                  vec3_add(vec3_get(&sums->direct, i), vec3_mul(intensity, direct)));
-    }
-}
-
-/* See surface_normal and surface_lift. */
-static void smoothen(const struct hit_shapes *h, bool lift, struct shade_batch *points)
-{
-    const struct vec3_batch *corner[3] = {&h->at, &h->second, &h->third};
-    for (uint32_t k = h->first[PRIM_TRIANGLE]; k < h->first[PRIM_TRIANGLE + 1]; k++) {
-        if (h->smooth[k] == 0)
-            continue;
-        double weight[3] = {1 - points->b1[k] - points->b2[k], points->b1[k], points->b2[k]};
-        struct vec3 face = vec3_get(&points->normal, k), p = vec3_get(&points->p, k), lifted = p;
-        struct vec3 n = vec3_scale(vec3_get(&h->corner_normal[0], k), weight[0]);
-        bool behind = vec3_dot(face, vec3_get(&points->incoming, k)) > 0;
-        struct vec3 outwards = behind ? vec3_neg(face) : face;
-        n = vec3_mad(n, weight[1], vec3_get(&h->corner_normal[1], k));
-        n = vec3_mad(n, weight[2], vec3_get(&h->corner_normal[2], k));
-        if (vec3_largest(n) > 0)
-            vec3_put(&points->normal, k, vec3_normalize(n));
-        for (int i = 0; i < 3 && lift; i++) {
-            n = vec3_get(&h->corner_normal[i], k);
-            n = vec3_dot(n, outwards) < 0 ? vec3_neg(n) : n;
-            double above = vec3_dot(vec3_sub(p, vec3_get(corner[i], k)), n);
-            lifted = above < 0 ? vec3_mad(lifted, -weight[i] * above, n) : lifted;
-        }
-        if (lift)
-            vec3_put(&points->lifted, k, lifted);
     }
 }
 
@@ -207,17 +172,14 @@ const struct render_kernels render_plain = {
     .aim = aim,
     .fill = vec3_fill,
     .hit_points = hit_points,
-    .weights = weights,
     .texels = texels,
     .bend = bend,
     .face = face,
-    .outside = outside,
     .aim_at = aim_at,
     .add_light = add_light,
     .add_modern = modern_add_light,
     .front = front,
     .give = modern_give,
-    .smoothen = smoothen,
     .reflect = reflect,
     .bounds = bounds,
     .pack = pack,

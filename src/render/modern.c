@@ -18,9 +18,9 @@ static struct seen_point seen_point_get(const struct shade_batch *points, uint32
 {
     struct seen_point seen = {.s = shade_point_get(points, k)};
     seen.normal = seen.s.normal;
-    seen.smooth = vec3_get(&points->smooth, k);
-    seen.geometric = vec3_get(&points->geometric, k);
-    seen.lifted = vec3_get(&points->lifted, k);
+    seen.smooth = vec3_get(smooth_normals(points), k);
+    seen.geometric = vec3_get(geometric_normals(points), k);
+    seen.lifted = vec3_get(shadow_origins(points), k);
     if (vec3_dot(seen.geometric, seen.s.incoming) > 0) {
         seen.normal = vec3_neg(seen.normal);
         seen.smooth = vec3_neg(seen.smooth);
@@ -137,7 +137,7 @@ uint32_t aim_at_samples(struct worker *w, const struct lamp *lamp, uint32_t k, u
     const struct tracer *t = w->tracer;
     struct ray_batch *rays = &w->shadow_rays;
     const struct sample_batch *samples = samples_for(w, lamp, k, first);
-    struct vec3 from = vec3_get(&w->points.lifted, k);
+    struct vec3 from = vec3_get(shadow_origins(&w->points), k);
     struct vec3_batch given;
     uint32_t n = 0;
     t->kernels->give(&w->points, k, lamp->light, samples, &given);
@@ -193,8 +193,8 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
         if (!(lit >> k & 1))
             continue;
         if (k >= end)
-            end =
-                see_lamp(w->tracer, lamp, &points->lifted, points->prim, box, k, points->n, &sight);
+            end = see_lamp(w->tracer, lamp, shadow_origins(points), points->prim, box, k, points->n,
+                           &sight);
         enum lamp_view view = lamp_view(w->tracer, &sight, k, &own);
         if (view == LAMP_HIDDEN) {
             w->stats.skipped[SKIP_UMBRA] += lamp->light->samples.n;
@@ -215,7 +215,7 @@ static struct box modern_begin(struct worker *w)
         vec3_put(&w->light.direct, k,
                  glows ? diffuse : vec3_mul(diffuse, w->tracer->scene->ambient));
     }
-    return w->tracer->kernels->bounds(&points->lifted, points->n);
+    return w->tracer->kernels->bounds(shadow_origins(points), points->n);
 }
 
 static void modern_add(struct worker *w, size_t k, struct box box)
@@ -279,7 +279,7 @@ static void spawn_from(struct worker *w, struct level *level, const struct path 
     const struct media *media = paths ? &paths[ray].media : &outside;
     struct vec3 reflection = m->reflection, direction;
     if (!vec3_is_zero(m->refraction)) {
-        bool entering = vec3_dot(vec3_get(&w->points.geometric, k), p.s.incoming) < 0;
+        bool entering = vec3_dot(vec3_get(geometric_normals(&w->points), k), p.s.incoming) < 0;
         struct path path = {.weight = m->refraction,
                             .parent = ray,
                             .media = media_beyond(media, p.s.surface, entering)};

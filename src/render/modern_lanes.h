@@ -16,11 +16,6 @@ struct vseen {
     bool squared;                       /* all highlights are multiplied out */
 };
 
-static inline struct vvec3 v3_neg(struct vvec3 a)
-{
-    return (struct vvec3){-a.x, -a.y, -a.z};
-}
-
 static inline void turn_to_eye(struct vseen *s, struct vvec3 geometric)
 {
     vmask behind = v_less(v_all(0), v3_dot(geometric, s->incoming));
@@ -33,7 +28,7 @@ static inline struct vseen seen_points(const struct shade_batch *b, uint32_t i)
     struct vseen s = {.p = v3_load(&b->p, i),
                       .incoming = v3_load(&b->incoming, i),
                       .normal = v3_load(&b->normal, i),
-                      .smooth = v3_load(&b->smooth, i),
+                      .smooth = v3_load(smooth_normals(b), i),
                       .diffuse = v3_load(&b->diffuse, i),
                       .specular = v3_load(&b->specular, i),
                       .power = v_load_int(b->power + i),
@@ -41,7 +36,7 @@ static inline struct vseen seen_points(const struct shade_batch *b, uint32_t i)
                       .step = 1,
                       .lanes = b->n - i < LANES ? b->n - i : LANES,
                       .squared = !b->any_uneven};
-    turn_to_eye(&s, v3_load(&b->geometric, i));
+    turn_to_eye(&s, v3_load(geometric_normals(b), i));
     return s;
 }
 
@@ -51,14 +46,14 @@ static inline struct vseen seen_point(const struct shade_batch *b, uint32_t k)
     struct vseen s = {.p = v3_all(vec3_get(&b->p, k)),
                       .incoming = v3_all(vec3_get(&b->incoming, k)),
                       .normal = v3_all(vec3_get(&b->normal, k)),
-                      .smooth = v3_all(vec3_get(&b->smooth, k)),
+                      .smooth = v3_all(vec3_get(smooth_normals(b), k)),
                       .diffuse = v3_all(vec3_get(&b->diffuse, k)),
                       .specular = v3_all(vec3_get(&b->specular, k)),
                       .power = (vint){0} + b->power[k],
                       .finish = b->finish + k,
                       .lanes = LANES,
                       .squared = b->finish[k]->squared};
-    turn_to_eye(&s, v3_all(vec3_get(&b->geometric, k)));
+    turn_to_eye(&s, v3_all(vec3_get(geometric_normals(b), k)));
     return s;
 }
 
@@ -179,48 +174,5 @@ static void give(const struct shade_batch *points, uint32_t k, const struct ligh
         struct vvec3 lit = v3_mul(lights_reflected(&s, to_light), intensity);
         lit = v3_scale(lit, strength);
         v3_store(gives, i, v3_select(front, lit, (struct vvec3){zero, zero, zero}));
-    }
-}
-
-/* ---- smooth meshes --------------------------------------------------------------------------- */
-
-/* See surface_lift. */
-static struct vvec3 lifted_points(const struct hit_shapes *h, uint32_t i, const vreal weight[3],
-                                  struct vvec3 p, struct vvec3 outwards)
-{
-    const struct vec3_batch *corner[3] = {&h->at, &h->second, &h->third};
-    struct vvec3 lifted = p;
-    vreal zero = v_all(0);
-    for (int k = 0; k < 3; k++) {
-        struct vvec3 n = v3_load(&h->corner_normal[k], i);
-        n = v3_select(v_less(v3_dot(n, outwards), zero), v3_neg(n), n);
-        vreal above = v3_dot(v3_sub(p, v3_load(corner[k], i)), n);
-        lifted = v3_select(v_less(above, zero), v3_mad(lifted, -weight[k] * above, n), lifted);
-    }
-    return lifted;
-}
-
-static void smoothen(const struct hit_shapes *h, bool lift, struct shade_batch *points)
-{
-    uint32_t end = h->first[PRIM_TRIANGLE + 1];
-    for (uint32_t i = h->first[PRIM_TRIANGLE]; i < end; i += LANES) {
-        vmask smooth = v_less(v_all(0), v_load(h->smooth + i));
-        if (!v_any(smooth))
-            continue;
-        vreal b1 = v_load(points->b1 + i), b2 = v_load(points->b2 + i);
-        vreal weight[3] = {1 - b1 - b2, b1, b2}, zero = v_all(0);
-        struct vvec3 face = v3_load(&points->normal, i);
-        struct vvec3 n = v3_scale(v3_load(&h->corner_normal[0], i), weight[0]);
-        n = v3_mad(n, b1, v3_load(&h->corner_normal[1], i));
-        n = v3_mad(n, b2, v3_load(&h->corner_normal[2], i));
-        smooth &= v_less(zero, v3_largest(n));
-        v3_store(&points->normal, i, v3_select(smooth, v3_normalize(n), face));
-        if (!lift)
-            continue;
-        smooth = v_less(zero, v_load(h->smooth + i));
-        vmask behind = v_less(zero, v3_dot(face, v3_load(&points->incoming, i)));
-        struct vvec3 p = v3_load(&points->p, i);
-        struct vvec3 lifted = lifted_points(h, i, weight, p, v3_select(behind, v3_neg(face), face));
-        v3_store(&points->lifted, i, v3_select(smooth, lifted, p));
     }
 }

@@ -64,121 +64,7 @@ static uint64_t meet_crossed_surfaces(struct worker *w, const struct ray_batch *
     return inside;
 }
 
-/* ---- their points and normals ---------------------------------------------------------------- */
-
-static bool interpolates(const struct surface *surface)
-{
-    return surface->normals || surface->uvs;
-}
-
-/* Those at the corners of the triangle that points first to end lie on, if it is smooth. */
-static void gather_normals(struct hit_shapes *shapes, const struct tracer *t, uint32_t first,
-                           uint32_t end, struct prim prim, uint32_t number)
-{
-    const struct surface *surface = &t->scene->surfaces.at[prim.surface];
-    struct spot spot = {.geometry = &t->scene->geometry, .prim = number};
-    if (!surface->normals)
-        return;
-    for (int i = 0; i < 3; i++)
-        t->kernels->fill(&shapes->corner_normal[i], first, end,
-                         surface_corner_normal(surface, &spot, i));
-    fill(shapes->smooth, first, end, 1);
-    shapes->any_smooth = true;
-}
-
-/* The primitive of points first to end. */
-static void gather_shape(struct hit_shapes *shapes, const struct tracer *t, uint32_t first,
-                         uint32_t end, struct prim prim, uint32_t number)
-{
-    const struct scene *scene = t->scene;
-    const struct geometry *g = &scene->geometry;
-    const struct render_kernels *kernels = t->kernels;
-    if (prim.kind == PRIM_SPHERE) {
-        const struct sphere *s = &g->spheres.at[prim.index];
-        kernels->fill(&shapes->at, first, end, s->center);
-        fill(shapes->radius, first, end, s->radius);
-    } else if (prim.kind == PRIM_CYLINDER) {
-        const struct cylinder *c = &g->cylinders.at[prim.index];
-        kernels->fill(&shapes->at, first, end, c->base);
-        kernels->fill(&shapes->along, first, end, c->axis);
-        fill(shapes->radius, first, end, c->radius);
-        fill(shapes->height, first, end, c->height);
-    } else if (prim.kind == PRIM_TRIANGLE) {
-        const struct triangle *tri = &g->triangles.at[prim.index];
-        kernels->fill(&shapes->at, first, end, g->vertices.at[tri->vertex[0]]);
-        kernels->fill(&shapes->along, first, end, tri->normal);
-        fill(shapes->smooth, first, end, 0);
-        if (!interpolates(&scene->surfaces.at[prim.surface]))
-            return;
-        kernels->fill(&shapes->second, first, end, g->vertices.at[tri->vertex[1]]);
-        kernels->fill(&shapes->third, first, end, g->vertices.at[tri->vertex[2]]);
-        shapes->weighted = true;
-        gather_normals(shapes, t, first, end, prim, number);
-    }
-}
-
-static void gather_point(struct worker *w, const struct ray_batch *rays, uint32_t i,
-                         struct prim prim)
-{
-    struct shade_batch *points = &w->points;
-    struct hit_shapes *shapes = &w->shapes;
-    uint32_t k = points->n++;
-    points->ray[k] = i;
-    points->prim[k] = (uint32_t)w->hits.prim[i];
-    points->surface[k] = prim.surface;
-    points->t[k] = w->hits.t[i];
-    vec3_put(&points->incoming, k, vec3_get(&rays->direction, i));
-    vec3_put(&shapes->origins, k, vec3_get(&rays->origin, i));
-    shapes->part[k] = w->hits.part[i];
-    gather_shape(shapes, w->tracer, k, k + 1, prim, points->prim[k]);
-}
-
-/* Puts the hits in the order of their primitives' kinds. */
-static void gather_any(struct worker *w, const struct ray_batch *rays)
-{
-    const struct prim *prims = w->tracer->scene->geometry.prims.at;
-    uint32_t of_kind[PRIM_KINDS][BATCH], n[PRIM_KINDS] = {0};
-    for (uint32_t i = 0; i < rays->n; i++) {
-        if (w->hits.prim[i] == PRIM_NONE)
-            continue;
-        unsigned kind = prims[(uint32_t)w->hits.prim[i]].kind;
-        of_kind[kind][n[kind]++] = i;
-    }
-    w->points.n = 0;
-    w->points.in_order = false;
-    w->shapes.origin = &w->shapes.origins;
-    for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
-        w->shapes.first[kind] = w->points.n;
-        for (uint32_t k = 0; k < n[kind]; k++) {
-            uint32_t i = of_kind[kind][k];
-            gather_point(w, rays, i, prims[(uint32_t)w->hits.prim[i]]);
-        }
-    }
-    w->shapes.first[PRIM_KINDS] = w->points.n;
-}
-
-/* All rays hit the same primitive, as those of most tiles do: no hit has to be moved. */
-static void gather_same(struct worker *w, const struct ray_batch *rays)
-{
-    struct shade_batch *points = &w->points;
-    struct hit_shapes *shapes = &w->shapes;
-    uint32_t n = rays->n, number = (uint32_t)w->hits.prim[0];
-    struct prim prim = w->tracer->scene->geometry.prims.at[number];
-    points->n = n;
-    points->in_order = true;
-    for (uint32_t k = 0; k < n; k++) {
-        points->ray[k] = k;
-        points->prim[k] = number;
-        points->surface[k] = prim.surface;
-    }
-    vec3_copy(&points->incoming, n, &rays->direction);
-    shapes->origin = &rays->origin;
-    memcpy(points->t, w->hits.t, n * sizeof *points->t);
-    memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
-    gather_shape(shapes, w->tracer, 0, n, prim, number);
-    for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
-        shapes->first[kind] = kind <= prim.kind ? 0 : n;
-}
+/* ---- what they lie on ------------------------------------------------------------------------ */
 
 static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
 {
@@ -189,54 +75,116 @@ static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
     return differing == 0 && hits->prim[0] != PRIM_NONE;
 }
 
-static void gather_points(struct worker *w, const struct ray_batch *rays)
+/* Puts the rays that hit something in the order of their primitives' kinds. */
+static void sort_hits(struct worker *w, uint32_t n)
 {
-    w->shapes.weighted = w->shapes.any_smooth = false;
-    if (all_hit_the_same(&w->hits, rays->n))
-        gather_same(w, rays);
-    else
-        gather_any(w, rays);
-}
-
-static void settle_points(struct worker *w)
-{
-    const struct geometry *g = &w->tracer->scene->geometry;
+    const struct prim *prims = w->tracer->scene->geometry.prims.at;
     struct shade_batch *points = &w->points;
-    uint32_t end = w->shapes.first[PRIM_TRIANGLE + 1];
-    for (uint32_t k = w->shapes.first[PRIM_TRIANGLE], next; k < end; k = next) {
-        uint32_t prim = points->prim[k];
-        for (next = k + 1; next < end && points->prim[next] == prim;)
-            next++;
-        struct fence fence = triangle_fence(g, prim);
-        uint64_t left = w->tracer->kernels->outside(&fence, &points->p, k, next);
-        for (; left; left &= left - 1) {
-            uint32_t i = (uint32_t)__builtin_ctzll(left);
-            struct vec3 p = vec3_get(&points->p, i);
-            vec3_put(&points->p, i, triangle_settle(g, prim, p, vec3_largest(p)));
-        }
-    }
-}
-
-/* Points on instances, which the kernels know nothing of. */
-static void find_points_on_instances(struct worker *w)
-{
-    const struct scene *scene = w->tracer->scene;
-    struct shade_batch *points = &w->points;
-    const struct hit_shapes *shapes = &w->shapes;
-    for (uint32_t k = shapes->first[PRIM_INSTANCE]; k < shapes->first[PRIM_INSTANCE + 1]; k++) {
-        struct ray ray = {.origin = vec3_get(shapes->origin, k),
-                          .direction = vec3_get(&points->incoming, k)};
-        struct hit hit = {
-            .t = points->t[k], .prim = points->prim[k], .part = (uint32_t)shapes->part[k]};
-        struct vec3 normal;
-        vec3_put(&points->p, k, geometry_hit_point(&scene->geometry, &ray, &hit, &normal));
-        vec3_put(&points->normal, k, normal);
-        if (!interpolates(&scene->surfaces.at[points->surface[k]]))
+    uint32_t of_kind[PRIM_KINDS][BATCH], count[PRIM_KINDS] = {0};
+    for (uint32_t i = 0; i < n; i++) {
+        if (w->hits.prim[i] == PRIM_NONE)
             continue;
-        geometry_weights(&scene->geometry, &ray, &hit);
-        points->b1[k] = hit.b1;
-        points->b2[k] = hit.b2;
+        unsigned kind = prims[(uint32_t)w->hits.prim[i]].kind;
+        of_kind[kind][count[kind]++] = i;
     }
+    points->in_order = false;
+    for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
+        w->shapes.first[kind] = points->n;
+        memcpy(points->ray + points->n, of_kind[kind], count[kind] * sizeof *points->ray);
+        points->n += count[kind];
+        points->in_order |= count[kind] == n;
+    }
+    w->shapes.first[PRIM_KINDS] = points->n;
+}
+
+/* Those of points that all lie on one primitive, as most tiles' do. */
+static void note_same(struct worker *w, uint32_t n)
+{
+    struct shade_batch *points = &w->points;
+    uint32_t number = (uint32_t)w->hits.prim[0];
+    struct prim prim = w->tracer->scene->geometry.prims.at[number];
+    for (uint32_t k = 0; k < n; k++) {
+        points->ray[k] = k;
+        points->prim[k] = number;
+        points->surface[k] = prim.surface;
+        w->shapes.index[k] = prim.index;
+    }
+    for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
+        w->shapes.first[kind] = kind <= prim.kind ? 0 : n;
+    points->n = n;
+    points->in_order = true;
+}
+
+static void note_any(struct worker *w, uint32_t n)
+{
+    const struct prim *prims = w->tracer->scene->geometry.prims.at;
+    struct shade_batch *points = &w->points;
+    sort_hits(w, n);
+    for (uint32_t k = 0; k < points->n; k++) {
+        uint32_t number = (uint32_t)w->hits.prim[points->ray[k]];
+        points->prim[k] = number;
+        points->surface[k] = prims[number].surface;
+        w->shapes.index[k] = prims[number].index;
+    }
+}
+
+static void pick(double *to, const double *from, const uint32_t *which, uint32_t n)
+{
+    for (uint32_t k = 0; k < n; k++)
+        to[k] = from[which[k]];
+}
+
+static void pick_vectors(struct vec3_batch *to, const struct vec3_batch *from,
+                         const uint32_t *which, uint32_t n)
+{
+    pick(to->x, from->x, which, n);
+    pick(to->y, from->y, which, n);
+    pick(to->z, from->z, which, n);
+}
+
+/* The rays of the points. */
+static void pick_rays(struct worker *w, const struct ray_batch *rays)
+{
+    struct shade_batch *points = &w->points;
+    struct hit_shapes *shapes = &w->shapes;
+    uint32_t n = points->n;
+    shapes->origin = &rays->origin;
+    if (points->in_order) {
+        vec3_copy(&points->incoming, n, &rays->direction);
+        memcpy(points->t, w->hits.t, n * sizeof *points->t);
+        memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
+        return;
+    }
+    pick_vectors(&points->incoming, &rays->direction, points->ray, n);
+    pick(points->t, w->hits.t, points->ray, n);
+    pick(shapes->part, w->hits.part, points->ray, n);
+    if (!rays->common_origin) {
+        pick_vectors(&shapes->origins, &rays->origin, points->ray, n);
+        shapes->origin = &shapes->origins;
+    }
+}
+
+/* The end of the points from `first` on that lie on the same surface. */
+static uint32_t end_of_surface(const struct shade_batch *points, uint32_t first)
+{
+    uint32_t end = first + 1;
+    while (end < points->n && points->surface[end] == points->surface[first])
+        end++;
+    return end;
+}
+
+static void note_surfaces(struct worker *w)
+{
+    struct shade_batch *points = &w->points;
+    struct hit_shapes *shapes = &w->shapes;
+    shapes->weighted = shapes->bent = points->curved = false;
+    for (uint32_t k = 0; k < points->n; k = end_of_surface(points, k)) {
+        const struct surface *s = &w->tracer->scene->surfaces.at[points->surface[k]];
+        shapes->weighted |= surface_interpolates(s);
+        shapes->bent |= s->normals || s->flip;
+        points->curved |= w->tracer->modern && (s->normals || s->normal_map != TEXTURE_NONE);
+    }
+    shapes->bent |= points->curved;
 }
 
 /* ---- their surfaces -------------------------------------------------------------------------- */
@@ -311,47 +259,6 @@ static void note_textures(struct worker *w, uint32_t first, uint32_t end,
     }
     if (m->texture != TEXTURE_NONE)
         add_textured(&w->paints, first, end, m->texture, &m->uv, u, v);
-}
-
-/* A smooth mesh's normal on an instance, which the kernels know nothing of; and where shadow rays
- * start, modern. */
-static void smoothen_on_instance(struct worker *w, uint32_t k, const struct surface *surface)
-{
-    const struct scene *scene = w->tracer->scene;
-    struct shade_batch *points = &w->points;
-    struct hit hit = hit_of_point(w, k);
-    struct vec3 face = vec3_get(&points->normal, k);
-    bool behind = vec3_dot(face, vec3_get(&points->incoming, k)) > 0;
-    vec3_put(&points->normal, k, surface_normal(scene, surface, &hit, face));
-    if (w->tracer->modern)
-        vec3_put(&points->lifted, k,
-                 surface_lift(scene, surface, &hit, vec3_get(&points->p, k),
-                              behind ? vec3_neg(face) : face));
-}
-
-static void flip(struct vec3_batch *normals, uint32_t k)
-{
-    vec3_put(normals, k, vec3_neg(vec3_get(normals, k)));
-}
-
-/* Of points first to end, which lie on one surface: normals that are not the primitive's own, and
- * what textures say. */
-static void apply_surface(struct worker *w, uint32_t first, uint32_t end,
-                          const struct surface *surface)
-{
-    struct shade_batch *points = &w->points;
-    bool modern = w->tracer->modern, placed = first >= w->shapes.first[PRIM_INSTANCE];
-    for (uint32_t k = first; k < end && surface->normals && placed; k++)
-        smoothen_on_instance(w, k, surface);
-    for (uint32_t k = first; k < end && surface->flip; k++) {
-        if (!(surface->normals && placed))
-            flip(&points->normal, k);
-        flip(&points->geometric, k);
-    }
-    for (uint32_t k = first; k < end && modern; k++)
-        vec3_put(&points->smooth, k, vec3_get(&points->normal, k));
-    if (surface->needs_uv)
-        note_textures(w, first, end, surface);
 }
 
 /* The texels of one texture's points; out by point.  Takes these out of `todo`, a bit for each. */
@@ -459,31 +366,22 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
     points->any_uneven |= finish->uneven;
     points->any_glowing |= finish->glows;
     points->any_bounces |= finish->bounces;
-    if (surface->normals || surface->flip || surface->needs_uv)
-        apply_surface(w, first, end, surface);
+    if (surface->needs_uv)
+        note_textures(w, first, end, surface);
 }
 
 static void finish_points(struct worker *w)
 {
     struct shade_batch *points = &w->points;
     w->bumps.n = w->paints.n = 0;
-    if (w->tracer->modern) {
-        vec3_copy(&points->geometric, points->n, &points->normal);
-        vec3_copy(&points->smooth, points->n, &points->normal);
-        vec3_copy(&points->lifted, points->n, &points->p);
-    }
     points->any_uneven = points->any_glowing = points->any_bounces = false;
-    if (w->shapes.any_smooth) {
-        uint32_t end = w->shapes.first[PRIM_TRIANGLE + 1];
-        fill(w->shapes.smooth, end, end + BATCH_ROOM - BATCH, 0);
-        w->tracer->kernels->smoothen(&w->shapes, w->tracer->modern, points);
-    }
     for (uint32_t first = 0, end; first < points->n; first = end) {
-        end = points->in_order ? points->n : first + 1;
-        while (end < points->n && points->surface[end] == points->surface[first])
-            end++;
+        end = end_of_surface(points, first);
         finish_run(w, first, end);
+        points->one_surface = end - first == points->n;
     }
+    if (points->curved)
+        vec3_copy(&points->smooth, points->n, &points->normal);
     if (w->bumps.n > 0)
         bend_normals(w);
     if (w->paints.n > 0)
@@ -507,14 +405,15 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     }
     bundle_closest(&t->accel, t->bundles, rays, list, &w->hits);
     uint64_t inside = meet_crossed_surfaces(w, rays, paths);
-    gather_points(w, rays);
+    if (all_hit_the_same(&w->hits, rays->n))
+        note_same(w, rays->n);
+    else
+        note_any(w, rays->n);
+    pick_rays(w, rays);
+    note_surfaces(w);
     memset(points->inside, 0, sizeof points->inside);
     for (uint32_t k = 0; k < points->n && inside; k++)
         points->inside[k] = inside >> points->ray[k] & 1;
-    t->kernels->hit_points(&t->scene->geometry, &w->shapes, points);
-    settle_points(w);
-    if (w->shapes.weighted)
-        t->kernels->weights(&t->scene->geometry, &w->shapes, points);
-    find_points_on_instances(w);
+    t->kernels->hit_points(t->scene, &w->shapes, points);
     finish_points(w);
 }

@@ -188,8 +188,8 @@ void aim_at_light(struct worker *w, const struct light *light, const uint32_t *w
     const struct tracer *t = w->tracer;
     const struct shade_batch *points = &w->points;
     struct ray_batch *rays = &w->shadow_rays;
-    t->kernels->aim_at(light, t->modern ? &points->lifted : &points->p, points->prim,
-                       shadow_reach(t, light), points->n, rays);
+    t->kernels->aim_at(light, shadow_origins(points), points->prim, shadow_reach(t, light),
+                       points->n, rays);
     for (uint32_t i = 0; i < n && n < points->n; i++) {
         vec3_put(&rays->origin, i, vec3_get(&rays->origin, which[i]));
         vec3_put(&rays->direction, i, vec3_get(&rays->direction, which[i]));

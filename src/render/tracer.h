@@ -132,7 +132,8 @@ struct shade_batch {
     uint32_t n;
     struct vec3_batch incoming; /* unit, direction of travel */
     struct vec3_batch p, normal;
-    /* Modern: */
+    /* Modern: some surface is smooth or has a normal map.  Where not, the next are normal and p. */
+    bool curved;
     struct vec3_batch geometric; /* the primitive's normal */
     struct vec3_batch smooth;    /* interpolated, before a normal map bends it */
     struct vec3_batch lifted;    /* where shadow rays start */
@@ -141,9 +142,10 @@ struct shade_batch {
     alignas(64) double facing[BATCH_ROOM]; /* cosine between normal and incoming */
     alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
     alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
-    uint32_t prim[BATCH_ROOM], surface[BATCH];
+    uint32_t prim[BATCH_ROOM], surface[BATCH_ROOM];
     uint32_t ray[BATCH];              /* place in the batch of rays */
     bool in_order;                    /* point k is ray k's, for all rays */
+    bool one_surface;                 /* all lie on one */
     alignas(64) double t[BATCH_ROOM]; /* distance along it */
     bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
@@ -151,6 +153,21 @@ struct shade_batch {
     bool any_glowing; /* some is emissive */
     bool any_bounces;
 };
+
+static inline const struct vec3_batch *geometric_normals(const struct shade_batch *b)
+{
+    return b->curved ? &b->geometric : &b->normal;
+}
+
+static inline const struct vec3_batch *smooth_normals(const struct shade_batch *b)
+{
+    return b->curved ? &b->smooth : &b->normal;
+}
+
+static inline const struct vec3_batch *shadow_origins(const struct shade_batch *b)
+{
+    return b->curved ? &b->lifted : &b->p;
+}
 
 /* One of them. */
 struct shade_point {
@@ -186,21 +203,15 @@ struct textured {
     double u[BATCH_ROOM], v[BATCH_ROOM];
 };
 
-/* Hits and the primitives they lie on, by kind: from first[kind] to first[kind + 1]. */
+/* What points lie on, by kind: from first[kind] to first[kind + 1]. */
 struct hit_shapes {
     uint32_t first[PRIM_KINDS + 1];
-    bool weighted;                   /* some triangle's surface has something to interpolate */
+    alignas(64) uint32_t index[BATCH_ROOM]; /* of the shape, in the array of its kind */
+    alignas(64) double part[BATCH_ROOM];
     const struct vec3_batch *origin; /* of the ray: these or the rays' own */
     struct vec3_batch origins;
-    struct vec3_batch at;            /* sphere's center, cylinder's base, triangle's first corner */
-    struct vec3_batch along;         /* cylinder's axis, triangle's normal */
-    struct vec3_batch second, third; /* corners, where weighted */
-    bool any_smooth;
-    alignas(64) double smooth[BATCH_ROOM]; /* 1 where normals are interpolated; of triangles */
-    struct vec3_batch corner_normal[3];    /* there */
-    alignas(64) double radius[BATCH_ROOM];
-    alignas(64) double height[BATCH_ROOM];
-    alignas(64) double part[BATCH_ROOM];
+    bool weighted; /* some surface has something to interpolate between corners */
+    bool bent;     /* the normals of some are not the primitives': smooth, flipped */
 };
 
 /* What camera rays through a part of the picture can meet. */
@@ -225,12 +236,10 @@ struct render_kernels {
                 struct vec3_batch *directions);
     /* As vec3_fill, but elements up to the next whole vector may be filled, too. */
     void (*fill)(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value);
-    /* Fills in p and normal of the points, whose incoming is known. */
-    void (*hit_points)(const struct geometry *g, const struct hit_shapes *shapes,
+    /* Fills in p and normal of the points; b1 and b2, where shapes->weighted; geometric and lifted,
+     * where they are curved. */
+    void (*hit_points)(const struct scene *scene, const struct hit_shapes *shapes,
                        struct shade_batch *points);
-    /* Fills in b1 and b2 of points on triangles. */
-    void (*weights)(const struct geometry *g, const struct hit_shapes *shapes,
-                    struct shade_batch *points);
     /* The texture at n <= BATCH places. */
     void (*texels)(const struct texture *texture, const double *u, const double *v, uint32_t n,
                    struct vec3_batch *texels);
@@ -239,9 +248,6 @@ struct render_kernels {
     void (*bend)(const struct vec3_batch *texels, const double *bent, struct shade_batch *points);
     /* Fills in the cosines between normals and incoming rays. */
     void (*face)(struct shade_batch *points);
-    /* Bit k: point k, one of those from `first` to `end`, is not inside of the fence. */
-    uint64_t (*outside)(const struct fence *fence, const struct vec3_batch *p, uint32_t first,
-                        uint32_t end);
     /* The rays from n points, which lie on `prims`, to a light that has one for each point. */
     void (*aim_at)(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
                    double t_max, uint32_t n, struct ray_batch *rays);
@@ -256,9 +262,6 @@ struct render_kernels {
     /* What samples of an area light give point k if nothing is in the way; modern. */
     void (*give)(const struct shade_batch *points, uint32_t k, const struct light *light,
                  const struct sample_batch *samples, struct vec3_batch *gives);
-    /* Interpolates the normals of smooth triangles, whose b1 and b2 are known; and lifts their
-     * points. */
-    void (*smoothen)(const struct hit_shapes *shapes, bool lift, struct shade_batch *points);
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
@@ -342,6 +345,10 @@ void aim_at_points(struct worker *w, const struct lamp *lamp, size_t batch, stru
                    uint32_t prim, uint32_t room[BATCH], const uint32_t **counts);
 uint32_t aim_at_samples(struct worker *w, const struct lamp *lamp, uint32_t k, uint32_t first,
                         struct vec3 gives[BATCH]);
+
+/* kernels_plain.c: what the kernel hit_points fills in of point k. */
+void place_point(const struct scene *scene, const struct hit_shapes *shapes, uint32_t k,
+                 struct shade_batch *points);
 
 /* modern.c: the reference of these kernels. */
 void modern_add_light(const struct shade_batch *points, const struct light *light,

@@ -126,24 +126,14 @@ struct spot geometry_spot(const struct geometry *g, const struct hit *hit);
 struct vec3 geometry_hit_point(const struct geometry *g, const struct ray *ray,
                                const struct hit *hit, struct vec3 *normal);
 
-/* The sides of a triangle, each a plane across it somewhat inside. */
-struct fence {
-    struct vec3 inwards[3];
-    double least[3];
-};
+/* How far inside of its edges a hit point is kept, in tolerances of rays that start there: off the
+ * plane of what meets the triangle there at 4 degrees or more. */
+#define EDGE_CLEARANCE 16
 
 /* A hit point on a triangle is not left on an edge, or beyond one by a rounding error: a ray that
  * starts there would leave out the face on the other side, which may stand in its way.  `reach` as
  * for geometry_lies_on.  Points on instances are settled already. */
 struct vec3 triangle_settle(const struct geometry *g, uint32_t prim, struct vec3 p, double reach);
-
-/* Most points are settled; a fence tells it. */
-struct fence triangle_fence(const struct geometry *g, uint32_t prim);
-static inline bool fence_holds(const struct fence *f, struct vec3 p)
-{
-    return vec3_dot(f->inwards[0], p) >= f->least[0] && vec3_dot(f->inwards[1], p) >= f->least[1] &&
-           vec3_dot(f->inwards[2], p) >= f->least[2];
-}
 
 /* Works out b1 and b2 of a hit on a triangle. */
 void geometry_weights(const struct geometry *g, const struct ray *ray, struct hit *hit);

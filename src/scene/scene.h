@@ -167,6 +167,12 @@ static inline struct vec2 triangle_uv(const struct vec2 corner[3], double b1, do
                          b0 * corner[0].y + b1 * corner[1].y + b2 * corner[2].y};
 }
 
+/* Whether something is interpolated between a triangle's corners. */
+static inline bool surface_interpolates(const struct surface *s)
+{
+    return s->normals || s->uvs;
+}
+
 /* Shading normal before any normal map, made of the geometric one: interpolated for smooth meshes,
  * flipped where asked. */
 struct vec3 surface_normal(const struct scene *s, const struct surface *surface,

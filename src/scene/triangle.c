@@ -149,25 +149,8 @@ struct vec3 triangle_hit_point(const struct geometry *g, const struct ray *ray,
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* How far inside of its edges a hit point is kept, in tolerances of rays that start there: off the
- * plane of what meets the triangle there at 4 degrees or more. */
-#define EDGE_CLEARANCE 16
-
 /* A sliver's point may be no farther inside than this part of its height. */
 #define EDGE_SHARE 0x1p-4
-
-struct fence triangle_fence(const struct geometry *g, uint32_t prim)
-{
-    const struct triangle *t = triangle_at(g, prim);
-    double clear = EDGE_CLEARANCE * SPAWN_TOLERANCE * 2 * t->reach;
-    struct fence f;
-    for (int i = 0; i < 3; i++) {
-        struct vec3 from = corner_at(g, t, i), along = vec3_sub(corner_at(g, t, (i + 1) % 3), from);
-        f.inwards[i] = vec3_cross_plain(t->normal, along);
-        f.least[i] = vec3_dot(f.inwards[i], from) + clear * vec3_length(along);
-    }
-    return f;
-}
 
 /* Towards the middle, until it is clear of all edges. */
 struct vec3 triangle_settle(const struct geometry *g, uint32_t prim, struct vec3 p, double reach)

@@ -205,7 +205,7 @@ static void make_points(struct shade_batch *points, const struct finish finishes
 {
     memset(points, 0, sizeof *points);
     points->n = run % 2 ? 13 : BATCH;
-    points->any_uneven = true;
+    points->any_uneven = points->curved = true;
     for (uint32_t i = 0; i < points->n; i++) {
         struct vec3 normal = unit_at(run, i, 1);
         vec3_put(&points->p, i, random_vec3(run, i, 2));
@@ -304,40 +304,108 @@ START_TEST(who_faces_away_gets_no_light)
 }
 END_TEST
 
-START_TEST(normals_are_interpolated_as_for_single_points)
+/* ---- points on primitives ----------------------------------------------------------------------
+ */
+
+/* Every second of a row of triangles is smooth, every third flipped; some corners have no normal.
+ * They start at vertex 7, and those of one surface have normals by face. */
+static void make_surfaces(struct scene *s, uint64_t run, struct vec3 *normals,
+                          struct triangle_corners *corners)
+{
+    struct geometry *g = &s->geometry;
+    make_geometry(g, run);
+    for (uint32_t i = 0; i <= 8; i++)
+        vec_push(&s->surfaces, (struct surface){.normal_map = TEXTURE_NONE});
+    struct surface mesh = {
+        .first_prim = (uint32_t)g->prims.n, .first_vertex = 7, .normal_map = TEXTURE_NONE};
+    for (uint32_t i = 0; i < 30; i++) {
+        geometry_add_vertex(g, random_vec3(run, 60 + i, 0));
+        normals[i] = i % 7 ? vec3_normalize(random_vec3(run, 90 + i, 0)) : vec3_all(0);
+        corners[i] = (struct triangle_corners){{i, 29 - i, 0}};
+    }
+    for (uint32_t i = 0; i < 3; i++) {
+        mesh.normals = i ? normals : NULL;
+        mesh.normal_corners = i == 2 ? corners : NULL;
+        mesh.flip = i != 1;
+        mesh.first_prim = (uint32_t)g->prims.n;
+        for (uint32_t k = 0; k < 10; k++)
+            geometry_add_triangle(g, (uint32_t)s->surfaces.n, 7 + 3 * i + k, 8 + k, 36 - k);
+        vec_push(&s->surfaces, mesh);
+    }
+}
+
+/* Rays that lead to places on primitives, some of them to corners, or to edges from afar. */
+static void make_hits(const struct scene *s, uint64_t run, struct hit_shapes *shapes,
+                      struct shade_batch *points)
+{
+    const struct geometry *g = &s->geometry;
+    uint32_t n = 0;
+    for (unsigned kind = 0; kind < PRIM_INSTANCE; kind++) {
+        shapes->first[kind] = n;
+        for (uint32_t i = 0; i < 20 && n < BATCH - run % 5; i++, n++) {
+            uint32_t prim = (uint32_t)(random_at(run, n, 40) * (double)g->prims.n);
+            while (g->prims.at[prim].kind != kind)
+                prim = (prim + 1) % (uint32_t)g->prims.n;
+            points->prim[n] = run % 3 && n > shapes->first[kind] ? points->prim[n - 1] : prim;
+        }
+    }
+    points->n = shapes->first[PRIM_INSTANCE] = shapes->first[PRIM_KINDS] = n;
+    for (uint32_t k = 0; k < n; k++) {
+        struct prim prim = g->prims.at[points->prim[k]];
+        struct vec3 from = random_vec3(run, k, 30), to = random_vec3(run, k, 33);
+        if (prim.kind == PRIM_TRIANGLE) {
+            const uint32_t *v = g->triangles.at[prim.index].vertex;
+            double b = k % 4 ? random_at(run, k, 36) / 2 : 0,
+                   c = k % 3 ? random_at(run, k, 37) / 2 : 0;
+            to = vec3_scale(g->vertices.at[v[0]], 1 - b - c);
+            to = vec3_mad(vec3_mad(to, b, g->vertices.at[v[1]]), c, g->vertices.at[v[2]]);
+            from = k % 8 ? from : vec3_scale(from, 1e9);
+        }
+        points->surface[k] = prim.surface;
+        shapes->index[k] = prim.index;
+        shapes->part[k] = k % 3;
+        points->t[k] = vec3_length(vec3_sub(to, from));
+        vec3_put(&shapes->origins, k, from);
+        vec3_put(&points->incoming, k, vec3_normalize(vec3_sub(to, from)));
+    }
+}
+
+START_TEST(points_lie_where_single_ones_do)
 {
     uint64_t run = (uint64_t)_i;
-    struct finish none[3] = {{0}};
+    struct scene s = {0};
+    struct vec3 normals[30];
+    struct triangle_corners corners[30];
     struct hit_shapes *shapes = mem_alloc_aligned(1, sizeof *shapes);
-    struct shade_batch *points = mem_alloc_aligned(2, sizeof *points), *other = points + 1;
+    struct shade_batch *expected = mem_alloc_aligned(2, sizeof *expected), *points = expected + 1;
     memset(shapes, 0, sizeof *shapes);
-    make_points(points, none, run);
-    for (int kind = 0; kind <= PRIM_KINDS; kind++)
-        shapes->first[kind] = kind <= PRIM_TRIANGLE ? 2 : points->n - 3;
-    for (uint32_t i = 0; i < points->n; i++) {
-        vec3_put(&shapes->at, i, random_vec3(run, i, 11));
-        vec3_put(&shapes->second, i, random_vec3(run, i, 12));
-        vec3_put(&shapes->third, i, random_vec3(run, i, 13));
-        for (uint32_t k = 0; k < 3; k++)
-            vec3_put(&shapes->corner_normal[k], i, i % 6 ? unit_at(run, i, 14 + k) : vec3_all(0));
-        shapes->smooth[i] = i % 3 != 1 && i >= 2 && i < points->n - 3;
-        points->b1[i] = random_at(run, i, 20) / 2;
-        points->b2[i] = random_at(run, i, 21) / 2;
-    }
-    vec3_copy(&points->lifted, BATCH, &points->p);
+    memset(expected, 0, sizeof *expected);
+    make_surfaces(&s, run, normals, corners);
+    make_hits(&s, run, shapes, expected);
+    shapes->origin = &shapes->origins;
+    shapes->weighted = shapes->bent = true;
+    expected->curved = run % 2;
+    *points = *expected;
+    render_plain.hit_points(&s, shapes, expected);
     for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
         if (!isa_available((enum isa)isa))
             continue;
-        struct shade_batch *expected = mem_alloc_aligned(1, sizeof *expected);
-        *other = *expected = *points;
-        render_plain.smoothen(shapes, true, expected);
-        render_kernels_of((enum isa)isa)->smoothen(shapes, true, other);
-        check_same_vectors(&other->normal, &expected->normal, points->n);
-        check_same_vectors(&other->lifted, &expected->lifted, points->n);
-        free(expected);
+        uint32_t n = points->n, first = shapes->first[PRIM_TRIANGLE];
+        render_kernels_of((enum isa)isa)->hit_points(&s, shapes, points);
+        check_same_vectors(&points->p, &expected->p, n);
+        check_same_vectors(&points->normal, &expected->normal, n);
+        for (uint32_t k = first; k < n; k++)
+            if (surface_interpolates(&s.surfaces.at[points->surface[k]]))
+                ck_assert(points->b1[k] == expected->b1[k] && points->b2[k] == expected->b2[k]);
+        if (!points->curved)
+            continue;
+        check_same_vectors(&points->geometric, &expected->geometric, n);
+        check_same_vectors(&points->lifted, &expected->lifted, n);
     }
+    free(expected);
     free(shapes);
-    free(points);
+    vec_free(&s.surfaces);
+    geometry_free(&s.geometry);
 }
 END_TEST
 
@@ -362,32 +430,6 @@ START_TEST(packed_pixels_are_those_of_single_colours)
     }
     picture_free(p);
     picture_free(q);
-}
-END_TEST
-
-/* From each of them to each of them, around a triangle. */
-START_TEST(fences_tell_who_is_outside)
-{
-    struct geometry g = {0};
-    make_geometry(&g, 1);
-    uint32_t prim = 0;
-    while (g.prims.at[prim].kind != PRIM_TRIANGLE)
-        prim++;
-    struct fence fence = triangle_fence(&g, prim);
-    struct vec3_batch points;
-    for (uint32_t i = 0; i < BATCH_ROOM; i++)
-        vec3_put(&points, i, random_vec3(3, i, 0));
-    for (uint32_t first = 0; first < BATCH; first += 3) {
-        for (uint32_t end = first + 1; end <= BATCH; end++) {
-            uint64_t expected = render_plain.outside(&fence, &points, first, end);
-            for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++)
-                if (isa_available((enum isa)isa))
-                    ck_assert(
-                        render_kernels_of((enum isa)isa)->outside(&fence, &points, first, end) ==
-                        expected);
-        }
-    }
-    geometry_free(&g);
 }
 END_TEST
 
@@ -435,9 +477,8 @@ Suite *kernels_suite(void)
     tcase_add_test(c, bounds_hold_all_points);
     tcase_add_loop_test(c, modern_light_is_that_of_single_points, 0, 16);
     tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
-    tcase_add_loop_test(c, normals_are_interpolated_as_for_single_points, 0, 8);
+    tcase_add_loop_test(c, points_lie_where_single_ones_do, 0, 60);
     tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 2);
-    tcase_add_test(c, fences_tell_who_is_outside);
     tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
     tcase_add_test(c, instruction_sets_have_names);
     suite_add_tcase(s, c);
