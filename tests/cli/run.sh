@@ -28,19 +28,21 @@ for tool in timeout gtimeout; do
     command -v $tool >/dev/null 2>&1 && limit="$tool -k 5 ${WRT_TIMEOUT:-60}" && break
 done
 
-# ---- one case, in a process of its own: leaves $work/$name/{result,report} ----------------------
+# ---- one case, in a shell of its own: leaves $work/$name/{result,report} ----------------------
 
 # What a case printed, with the place of the sources made independent of this machine.
 portable()
 {
-    if grep -qF -- "$srcdir" "$1"; then
-        sed "s|$srcdir|\$srcdir|g" "$1" >"$1.portable" && mv "$1.portable" "$1"
-    fi
+    local file
+    grep -lF -- "$srcdir" "$@" | while IFS= read -r file; do
+        sed "s|$srcdir|\$srcdir|g" "$file" >"$file.portable" && mv "$file.portable" "$file"
+    done
 }
 
 compare()
 {
     local expected=$1 actual=$2 title=$3
+    [ -s "$expected" ] || [ -s "$actual" ] || return 0
     [ -f "$expected" ] || expected=/dev/null
     cmp -s "$expected" "$actual" && return
     diff -u -L "$title expected" -L "$title got" "$expected" "$actual" | head -n 60
@@ -104,7 +106,7 @@ run_case()
     mine=$work/$name
     mkdir -p "$mine"
     cp -R "$case_dir" "$mine/run"
-    chmod -R u+w "$mine/run"
+    [ -w "$case_dir/cmd" ] || chmod -R u+w "$mine/run"
     cd "$mine/run" && rm -f cmd out err exit files needs
     if [ -f "$case_dir/needs" ] && ! sh "$case_dir/needs" >/dev/null 2>&1; then
         echo skip >"$mine/result"
@@ -116,9 +118,8 @@ run_case()
     export UBSAN_OPTIONS="${UBSAN_OPTIONS:+$UBSAN_OPTIONS:}log_path=$mine/sanitizer:print_stacktrace=1:exitcode=134"
     PATH=$work/bin:$PATH $limit sh "$case_dir/cmd" >"$mine/out" 2>"$mine/err" </dev/null
     status=$?
-    echo $status | grep -vx 0 >"$mine/exit"
-    portable "$mine/out"
-    portable "$mine/err"
+    [ $status = 0 ] || echo $status >"$mine/exit"
+    portable "$mine/out" "$mine/err"
 
     {
         local ok=0
@@ -135,8 +136,13 @@ run_case()
     rm -rf "$mine/run"
 }
 
-if [ "${1-}" = --one-case ]; then
-    run_case "$4" "$2" "$3"
+# --cases WORK UPDATE CASE...
+if [ "${1-}" = --cases ]; then
+    work=$2 update=$3
+    shift 3
+    for case_dir; do
+        (run_case "$case_dir" "$work" "$update")
+    done
     exit 0
 fi
 
@@ -181,12 +187,13 @@ for place in "${@:-.}"; do
 done | sed "s|/\./|/|; s|/cmd\$||" | sort -u | awk -v every="${WRT_EVERY:-1}" 'NR % every == 0' >"$work/cases"
 
 cores=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
-tr '\n' '\0' <"$work/cases" | xargs -0 -n 1 -P "$cores" "$BASH" "$here/run.sh" --one-case "$work" $update
+tr '\n' '\0' <"$work/cases" | xargs -0 -n 8 -P "$cores" "$BASH" "$here/run.sh" --cases "$work" $update
 
 passed=0 failed=0 skipped=0
 while IFS= read -r case_dir; do
-    name=${case_dir#"$here"/}
-    case $(cat "$work/$name/result" 2>/dev/null) in
+    name=${case_dir#"$here"/} result=
+    [ ! -f "$work/$name/result" ] || read -r result <"$work/$name/result"
+    case $result in
     pass) passed=$((passed + 1)) ;;
     skip)
         skipped=$((skipped + 1))

@@ -246,8 +246,8 @@ Suite *cubature_suite(void)
     tcase_set_timeout(t, 60);
     tcase_add_test(t, planes_need_five_samples);
     tcase_add_test(t, cubics_are_exact);
-    tcase_add_loop_test(t, edges_within_one_cell, 0, 2);
-    tcase_add_loop_test(t, edges_are_estimated, 0, 4);
+    tcase_add_loop_test(t, edges_within_one_cell, 0, SANITIZED(1, 2));
+    tcase_add_loop_test(t, edges_are_estimated, 0, SANITIZED(1, 4));
     tcase_add_test(t, noise_ends);
     tcase_add_loop_test(t, noise_is_estimated, 0, 6);
     tcase_add_test(t, all_cells_are_cut);

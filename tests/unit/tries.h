@@ -4,13 +4,10 @@
 
 #include "math/rng.h"
 #include "scene/geometry.h"
+#include "unit.h"
 
-/* How many of the tries are made: all, or some under a sanitizer. */
-#ifdef __SANITIZE_ADDRESS__
-#define TRIES(n) ((n) / 20)
-#else
-#define TRIES(n) (n)
-#endif
+/* How many of the tries are made: the stress suite makes the rest, and more. */
+#define TRIES(n) ((n) / SANITIZED(20, 2))
 
 /* Of the numbers taken; a test that is run in a loop begins each round at a place of its own. */
 static uint64_t counter;

@@ -4,6 +4,13 @@
 
 #include <check.h>
 
+/* Under a sanitizer less is tried of what takes long. */
+#ifdef __SANITIZE_ADDRESS__
+#define SANITIZED(less, all) (less)
+#else
+#define SANITIZED(less, all) (all)
+#endif
+
 Suite *base_suite(void);
 Suite *bvh_suite(void);
 Suite *cubature_suite(void);
