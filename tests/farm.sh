@@ -80,6 +80,28 @@ for signal in INT TERM; do
     rm -f picture* journal
 done
 
+# What is kept when a signal ends other renders, and what is not, is said.
+cp "$scene" film.wrt
+sed -i "s|\"../|\"$top/|; s/^model .*/&\nparam frame = 0/" film.wrt
+ended()
+{
+    local what=$1 pid
+    shift
+    env --default-signal=INT "$wrt" render -q "$@" >/dev/null 2>err &
+    pid=$!
+    sleep 0.2
+    kill -INT $pid
+    wait $pid
+    grep -qF -- "$what" err || complain "$*: said: $(cat err)"
+}
+slow=(--res 900x700 -s 9)
+ended '% of the picture; nothing of it was kept' "$scene" "${slow[@]}" -o -
+ended '% of the part; nothing of it was kept' "$scene" "${slow[@]}" --part 1/2 -o part
+ended "% of the part; --checkpoint 'journal' --resume goes on" "$scene" "${slow[@]}" --part 1/2 --checkpoint journal
+ended "before the time was over; the picture so far is in 'timed.partial.png'" "$scene" --time 60 -o timed.png
+ended "'film-0001.partial.png'; --checkpoint 'film-%d' --resume goes on" film.wrt "${slow[@]}" --frames 1..2 --checkpoint film-%d
+rm -f film* journal timed* part
+
 # A part that is torn or damaged at any byte is not used.
 render part --res 80x60 --part 1/1
 size=$(wc -c <part)

@@ -19,6 +19,10 @@
 enum { LINKS_LIMIT = 40, FOLDERS_LIMIT = 128, LINK_BYTES = 4096 };
 
 static const char OUTSIDE[] = "it is outside of the folder that files may be read from";
+static const char LEADS_OUT[] =
+    "a symbolic link leads out of the folder that files may be read from";
+static const char NOT_REGULAR[] = "it is no regular file";
+static const char ABSOLUTE_LINK[] = "a symbolic link to an absolute path is not followed here";
 
 /* A way through folders inside of the fence. */
 struct walk {
@@ -26,6 +30,7 @@ struct walk {
     VEC(int) folders; /* the open ones, without the fence's own */
     char *rest;       /* names yet to be walked; owned */
     unsigned links;   /* followed so far */
+    bool looks;       /* and opens nothing at its end */
 };
 
 const char *fence_open(struct file_fence *f, const char *folder)
@@ -101,16 +106,17 @@ static int folder_of(const struct walk *w)
 }
 
 /* Devices and pipes are not even opened: that alone may do something, or wait. */
-static int open_regular(int folder, const char *name, const char **reason)
+static int open_regular(const struct walk *w, const char *name, const char **reason)
 {
+    int folder = folder_of(w);
     struct stat st;
     int fd = -1;
     bool known = fstatat(folder, name, &st, AT_SYMLINK_NOFOLLOW) == 0;
     if (known && !S_ISREG(st.st_mode)) {
-        *reason = S_ISDIR(st.st_mode) ? strerror(EISDIR) : "it is no regular file";
+        *reason = S_ISDIR(st.st_mode) ? strerror(EISDIR) : NOT_REGULAR;
         return -1;
     }
-    if (known)
+    if (known && !w->looks)
         fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     *reason = fd < 0 ? strerror(errno) : NULL;
     return fd;
@@ -119,7 +125,7 @@ static int open_regular(int folder, const char *name, const char **reason)
 static const char *climb(struct walk *w)
 {
     if (!w->folders.n)
-        return OUTSIDE;
+        return w->links ? LEADS_OUT : OUTSIDE;
     close(w->folders.at[--w->folders.n]);
     return NULL;
 }
@@ -139,7 +145,7 @@ static const char *descend(struct walk *w, const char *name)
 static const char *follow(struct walk *w, const char *target, const char *rest)
 {
     if (target[0] == '/')
-        return OUTSIDE;
+        return ABSOLUTE_LINK;
     if (w->links++ == LINKS_LIMIT)
         return strerror(ELOOP);
     char *path = join(target, rest);
@@ -166,16 +172,17 @@ static const char *step(struct walk *w, int *file)
     if (strcmp(name, "..") == 0)
         reason = climb(w);
     else if (last && *name)
-        *file = open_regular(folder_of(w), name, &reason);
+        *file = open_regular(w, name, &reason);
     else if (*name && strcmp(name, ".") != 0)
         reason = descend(w, name);
     memmove(w->rest, rest, strlen(rest) + 1);
     return reason;
 }
 
-int fence_open_file(const struct file_fence *f, const char *path, const char **reason)
+/* To the file at the path, which is opened unless the walk only looks. */
+static int walk_to(const struct file_fence *f, const char *path, bool looks, const char **reason)
 {
-    struct walk w = {.fence = f, .rest = path_inside(f, path)};
+    struct walk w = {.fence = f, .rest = path_inside(f, path), .looks = looks};
     int file = -1;
     *reason = w.rest ? NULL : OUTSIDE;
     while (!*reason && file < 0)
@@ -185,4 +192,18 @@ int fence_open_file(const struct file_fence *f, const char *path, const char **r
     vec_free(&w.folders);
     free(w.rest);
     return file;
+}
+
+int fence_open_file(const struct file_fence *f, const char *path, const char **reason)
+{
+    return walk_to(f, path, false, reason);
+}
+
+const char *fence_objection(const struct file_fence *f, const char *path)
+{
+    const char *reason;
+    walk_to(f, path, true, &reason);
+    bool ours = reason == OUTSIDE || reason == LEADS_OUT || reason == ABSOLUTE_LINK ||
+                reason == NOT_REGULAR;
+    return ours ? reason : NULL;
 }

@@ -26,4 +26,8 @@ const char *fence_refusal(const struct file_fence *f, struct str name);
  * are absolute or climb out.  -1 and a reason otherwise. */
 int fence_open_file(const struct file_fence *f, const char *path, const char **reason);
 
+/* Why that would not open a file at `path`, which is not opened; NULL: nothing speaks against it,
+ * or there is none. */
+const char *fence_objection(const struct file_fence *f, const char *path);
+
 #endif

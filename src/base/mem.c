@@ -9,9 +9,22 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#ifdef __linux__
+static const int LIMITED = RLIMIT_DATA; /* since 4.7 of all private memory */
+#else
+static const int LIMITED = RLIMIT_AS;
+#endif
+
+/* A limit of this process alone is that of mem_limit: those of shells hold for good. */
 void mem_exhausted(size_t wanted)
 {
-    fprintf(stderr, "wrt: error: out of memory (%zu bytes wanted)\n", wanted);
+    struct rlimit limit;
+    bool own = getrlimit(LIMITED, &limit) == 0 && limit.rlim_cur < limit.rlim_max;
+    fprintf(stderr, "wrt: error: out of memory (%zu bytes wanted", wanted);
+    if (own)
+        fprintf(stderr, " beyond the %llu that --max-memory allows",
+                (unsigned long long)limit.rlim_cur);
+    fputs(")\n", stderr);
     exit(3);
 }
 
@@ -82,15 +95,10 @@ void *mem_alloc_aligned(size_t n, size_t size)
 
 bool mem_limit(uint64_t bytes)
 {
-#ifdef __linux__
-    const int what = RLIMIT_DATA; /* since 4.7 of all private memory */
-#else
-    const int what = RLIMIT_AS;
-#endif
     struct rlimit limit;
-    if (getrlimit(what, &limit) != 0)
+    if (getrlimit(LIMITED, &limit) != 0)
         return false;
     if (bytes < limit.rlim_cur) /* RLIM_INFINITY is the greatest */
         limit.rlim_cur = (rlim_t)bytes;
-    return setrlimit(what, &limit) == 0;
+    return setrlimit(LIMITED, &limit) == 0;
 }

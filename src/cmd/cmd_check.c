@@ -1,7 +1,7 @@
 #include "config.h"
 
 #include "cmd/commands.h"
-#include "cmd/frontend.h"
+#include "cmd/needed.h"
 #include "cmd/stats.h"
 
 #include <string.h>
@@ -9,7 +9,8 @@
 static int check_scene(const char *path, const struct options *o)
 {
     struct frontend f;
-    frontend_load(&f, path, o);
+    if (frontend_load(&f, path, o))
+        needed_check(&f);
     int status = frontend_report(&f, o, o->verbose ? DIAG_NOTE : DIAG_ERROR);
     struct check_stats stats = {
         .scene = path,

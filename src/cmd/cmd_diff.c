@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "convert/compare.h"
+#include "farm/tilefile.h"
 #include "lower/lower.h"
 
 #include <stdlib.h>
@@ -102,7 +103,11 @@ static int report_inputs(const struct diff_input inputs[2], const struct options
         if (inputs[i].problem)
             diag_report(&f.diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
                         inputs[i].name, inputs[i].problem);
-    if (!f.diag.errors)
+    if (!f.diag.errors && tilefile_recognised(scene->bytes, scene->n))
+        diag_report(&f.diag, DIAG_NOT_COMPARABLE, (struct span){0},
+                    "'%s' is a picture and '%s' holds tiles of one; 'wrt merge' makes the picture",
+                    picture->name, scene->name);
+    else if (!f.diag.errors)
         diag_report(&f.diag, DIAG_NOT_COMPARABLE, (struct span){0},
                     "'%s' is a picture and '%s' is none; two pictures or two scenes are compared",
                     picture->name, scene->name);

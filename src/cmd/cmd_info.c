@@ -260,9 +260,9 @@ static void print_escaped(const char *name)
 /* A rule for the picture that `wrt render` makes by default. */
 static void print_rule(const struct info *i)
 {
-    struct info_files files;
+    struct needed files;
     char *picture = default_picture(i->options->scenes.at[0]);
-    info_files(i, &files);
+    needed_files(&i->frontend, &files);
     print_escaped(i->options->output ? i->options->output : picture);
     putchar(':');
     for (size_t k = 0; k < files.paths.n; k++) {
@@ -270,7 +270,7 @@ static void print_rule(const struct info *i)
         print_escaped(files.paths.at[k]);
     }
     putchar('\n');
-    info_files_free(&files);
+    needed_free(&files);
     free(picture);
 }
 
@@ -313,7 +313,9 @@ static int tell(struct info *i)
 {
     const struct options *o = i->options;
     bool right = frontend_load(&i->frontend, o->scenes.at[0], o);
-    if (right && !o->deps)
+    if (right && o->deps)
+        right = needed_check(&i->frontend);
+    else if (right)
         right =
             lower_scene(&i->frontend.desc, &i->frontend.sources, &i->lowered, &i->frontend.diag);
     int status = frontend_report(&i->frontend, o, DIAG_WARNING);
@@ -337,6 +339,10 @@ int command_info(const struct options *o)
                            : usage_error("info: no scene given");
     if (o->deps && o->behind)
         return usage_error("--deps and --pixel cannot be combined");
+    if (o->width && !o->behind)
+        return usage_error("--res says of which picture --pixel is, and that is not given");
+    if (o->output && !o->deps)
+        return usage_error("-o names the picture of --deps, which is not given");
     struct info i = {.options = o};
     int status = tell(&i);
     lower_free(&i.lowered);

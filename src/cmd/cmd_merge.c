@@ -110,6 +110,26 @@ static void report_missing(struct merge *m)
     free(lacks);
 }
 
+/* Whether the format holds what the parts do; 0 or an exit status. */
+static int check_bits(const struct merge *m, enum picture_format format)
+{
+    static const struct {
+        const char *wanted;
+        int bits[2];
+    } formats[] = {
+        [PICTURE_PNG] = {"8 or 16", {8, 16}},
+        [PICTURE_PPM] = {"8", {8, 8}},
+        [PICTURE_PFM] = {"32", {32, 32}},
+        [PICTURE_EXR] = {"32", {32, 32}},
+    };
+    int bits = tilefile_bits(&m->head);
+    if (bits == formats[format].bits[0] || bits == formats[format].bits[1])
+        return 0;
+    return usage_error("merge: '%s' takes %s bits a channel, and the parts have %d: 'wrt render "
+                       "--part' makes them as --bits says",
+                       m->options->output, formats[format].wanted, bits);
+}
+
 static void write_picture(struct merge *m, enum picture_format format)
 {
     size_t n;
@@ -147,9 +167,10 @@ int command_merge(const struct options *o)
         take_part(&m, o->scenes.at[i]);
     if (m.picture && m.frontend.diag.exit != DIAG_EXIT_RESOURCE) /* it would follow */
         report_missing(&m);
-    if (m.frontend.diag.errors == 0)
+    int status = m.frontend.diag.errors == 0 ? check_bits(&m, format) : 0;
+    if (m.frontend.diag.errors == 0 && status == 0)
         write_picture(&m, format);
-    int status = frontend_report(&m.frontend, o, DIAG_WARNING);
+    status = status_worse(status, frontend_report(&m.frontend, o, DIAG_WARNING));
     picture_free(m.picture);
     free(m.have);
     frontend_free(&m.frontend);

@@ -70,24 +70,6 @@ static double deadline(const struct render_run *r)
     return r->started + r->options->time - write_s[r->format] * pixels;
 }
 
-/* What a service may not want to spend on a scene; what the user asks for is known beforehand. */
-static bool check_limits(struct render_run *r)
-{
-    const struct options *o = r->options;
-    const struct scene *s = &r->lowered.scene;
-    const struct desc *d = &r->frontend.desc;
-    uint64_t pixels = (uint64_t)s->camera.width * s->camera.height;
-    const struct desc_value *depth = d->settings ? desc_get(d->settings, PROP_DEPTH) : NULL;
-    if (!o->width && pixels > o->max_pixels)
-        diag_report(&r->frontend.diag, DIAG_SCENE_TOO_LARGE,
-                    desc_get(d->camera, PROP_RESOLUTION)->span,
-                    "the picture has more pixels than --max-pixels allows (%u)", o->max_pixels);
-    if (o->depth == DEPTH_OF_SCENE && s->depth > o->max_depth)
-        diag_report(&r->frontend.diag, DIAG_OUT_OF_RANGE, depth ? depth->span : (struct span){0},
-                    "rays are followed deeper than --max-depth allows (%u)", o->max_depth);
-    return r->frontend.diag.errors == 0;
-}
-
 static int load(struct render_run *r)
 {
     const struct options *o = r->options;
@@ -98,7 +80,6 @@ static int load(struct render_run *r)
         right = lower_scene_keeping(&r->frontend.desc, &r->frontend.sources, r->files, o->threads,
                                     &r->lowered, &r->frontend.diag);
     r->stats.load_s = thread_seconds() - start;
-    right = right && check_limits(r);
     bool said = render_frames_said(r);
     if (right && !render_frames_differ(r))
         diag_report(&r->frontend.diag, DIAG_UNKNOWN_PARAM, (struct span){0},
@@ -169,6 +150,7 @@ static void render(struct render_run *r)
     else
         rendering_tiles(r->rendering, r->tiles, r->tile_count);
     rendering_end(r->rendering, &r->stats.render);
+    r->stats.late = to->deadline > 0 && thread_seconds() >= to->deadline;
     progress_end(&r->progress);
 }
 
@@ -244,6 +226,10 @@ static int check_options(const struct options *o)
                            : usage_error("render: no scene given");
     if (o->resume && !o->checkpoint)
         return usage_error("--resume goes on with a --checkpoint, and none is given");
+    if (o->fps && !o->animated)
+        return usage_error("--fps is of --frames, and none are asked for");
+    if (o->seeded && !o->jitter)
+        return usage_error("--seed starts the random numbers of --jitter, which is not given");
     if (o->time > 0 && (o->checkpoint || o->parts > 0 || o->animated || o->mpi))
         return usage_error("--time makes another picture each time: it is no option with "
                            "--checkpoint, --frames, --mpi and --part");
@@ -264,8 +250,10 @@ static int render_all(const struct options *o, struct cluster *cluster)
 {
     int status;
     char *by_default = o->output ? NULL : default_output(o);
-    struct render_run r = {
-        .options = o, .output = o->output ? o->output : by_default, .cluster = cluster};
+    struct render_run r = {.options = o,
+                           .output = o->output ? o->output : by_default,
+                           .checkpoint = o->checkpoint,
+                           .cluster = cluster};
     if (o->animated) {
         status = render_frames(o, r.output, cluster);
     } else {

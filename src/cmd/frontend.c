@@ -6,7 +6,9 @@
 #include "base/file.h"
 #include "base/thread.h"
 #include "eval/eval.h"
+#include "farm/tilefile.h"
 #include "lint/explain.h"
+#include "lower/lower.h"
 #include "print/printer.h"
 #include "syntax/syntax.h"
 #include "validate/validate.h"
@@ -79,6 +81,23 @@ static bool may_evaluate(const struct frontend *f, bool parsed)
     return parsed || (!f->ast.xml && f->ast.statements);
 }
 
+/* What a service may not want to spend on a scene; what the user asks for is known beforehand. */
+static void check_limits(struct frontend *f, const struct options *o)
+{
+    const struct desc_object *settings = f->desc.settings;
+    const struct desc_value *size =
+        f->desc.camera ? desc_get(f->desc.camera, PROP_RESOLUTION) : NULL;
+    if (size && !o->width && size->number[0] * size->number[1] > o->max_pixels)
+        diag_report(&f->diag, DIAG_SCENE_TOO_LARGE, size->span,
+                    "the picture has more pixels than --max-pixels allows (%u)", o->max_pixels);
+    if (size && o->depth == DEPTH_OF_SCENE && lower_depth(&f->desc) > o->max_depth)
+        diag_report(&f->diag, DIAG_OUT_OF_RANGE,
+                    settings && desc_get(settings, PROP_DEPTH)
+                        ? desc_get(settings, PROP_DEPTH)->span
+                        : (struct span){0},
+                    "rays are followed deeper than --max-depth allows (%u)", o->max_depth);
+}
+
 /* After syntax errors nothing is said to be missing: it may stand where the text did not parse. */
 static void evaluate(struct frontend *f, const struct options *o, bool parsed)
 {
@@ -96,14 +115,34 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
         f->desc.incomplete = true;
     if (parsed || f->desc.camera)
         validate_scene(&f->desc, &f->diag);
+    if (f->diag.errors == 0)
+        check_limits(f, o);
     free(defines);
+}
+
+/* The bytes as a scene; takes them. */
+static const struct source *take_bytes(struct frontend *f, const char *path, char *bytes, size_t n)
+{
+    if (!tilefile_recognised(bytes, n))
+        return syntax_take(&f->sources, path, bytes, n, DIAG_CANNOT_READ, (struct span){0},
+                           &f->diag);
+    diag_report(&f->diag, DIAG_NOT_TEXT, (struct span){0},
+                "'%s' holds tiles of a picture and no scene; 'wrt merge' makes the picture",
+                display_name(path));
+    free(bytes);
+    return NULL;
 }
 
 bool frontend_parse(struct frontend *f, const char *path, const struct options *o)
 {
     frontend_init(f, o);
-    const struct source *s =
-        syntax_load(&f->sources, path, DIAG_CANNOT_READ, (struct span){0}, &f->diag);
+    char *bytes;
+    size_t n;
+    const char *reason = file_read_within(o->fence, path, &bytes, &n);
+    if (reason)
+        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
+                    display_name(path), reason);
+    const struct source *s = reason ? NULL : take_bytes(f, path, bytes, n);
     return s && syntax_parse(s, &f->ast, &f->diag);
 }
 
@@ -131,8 +170,7 @@ bool frontend_load_bytes(struct frontend *f, const char *path, char *bytes, size
                          const struct options *o)
 {
     frontend_init(f, o);
-    const struct source *s =
-        syntax_take(&f->sources, path, bytes, n, DIAG_CANNOT_READ, (struct span){0}, &f->diag);
+    const struct source *s = take_bytes(f, path, bytes, n);
     bool parsed = s && syntax_parse(s, &f->ast, &f->diag);
     if (may_evaluate(f, parsed))
         evaluate(f, o, parsed);

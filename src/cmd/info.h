@@ -2,7 +2,7 @@
 #ifndef WRT_CMD_INFO_H
 #define WRT_CMD_INFO_H
 
-#include "cmd/frontend.h"
+#include "cmd/needed.h"
 #include "lower/lower.h"
 #include "render/pixel_probe.h"
 
@@ -67,18 +67,6 @@ struct info_node {
 
 /* The root, which stands for the scene, in the arena. */
 struct info_node *info_tree(const struct desc *d, struct arena *a);
-
-/* ---- info_files.c ---- */
-
-/* Every file the scene needs, each once, beginning with the scene itself; freed by the caller with
- * info_files_free.  Textures and meshes need not exist. */
-struct info_files {
-    struct arena arena;
-    struct map known;
-    VEC(const char *) paths;
-};
-void info_files(const struct info *i, struct info_files *out);
-void info_files_free(struct info_files *f);
 
 /* ---- info_pixel.c ---- */
 

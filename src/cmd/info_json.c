@@ -104,12 +104,12 @@ static json_t *textures_json(const struct scene *s)
 
 json_t *info_files_json(const struct info *i)
 {
-    struct info_files files;
+    struct needed files;
     json_t *list = json_array();
-    info_files(i, &files);
+    needed_files(&i->frontend, &files);
     for (size_t k = 0; k < files.paths.n; k++)
         json_array_append_new(list, json_string(files.paths.at[k]));
-    info_files_free(&files);
+    needed_free(&files);
     return list;
 }
 

@@ -163,7 +163,7 @@ bool take_frames(const struct opt_row *row, const char *text, struct options *ou
 
 bool take_seed(const struct opt_row *row, const char *text, struct options *out)
 {
-    return take_between(row, text, 0, UINT64_MAX, &out->seed);
+    return out->seeded = take_between(row, text, 0, UINT64_MAX, &out->seed);
 }
 
 bool take_max_objects(const struct opt_row *row, const char *text, struct options *out)

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum opt {
 #define OPT(id, ...) OPT_##id,
@@ -156,10 +157,27 @@ static bool accept(const struct given *g, const char *word, unsigned command, st
     return row->take(row, g->argument, out);
 }
 
+static bool called_as_scene(const char *word)
+{
+    const char *dot = strrchr(word, '.');
+    return dot && (strcmp(dot, ".wrt") == 0 || strcmp(dot, ".xml") == 0);
+}
+
+/* `--adaptive 0.01`: an argument that may be left out stands behind `=`, so the word is an operand;
+ * it was meant as an argument when it is no file and is not called as scenes are. */
+static bool meant_as_argument(const struct given *g, const char *next)
+{
+    if (g->opt == OPTS || !optional_argument(g->opt) || g->argument || !next || is_option(next) ||
+        access(next, F_OK) == 0 || called_as_scene(next))
+        return false;
+    usage_error("'%s' is no file; what --%s takes stands behind '=': --%s=%s", next,
+                rows[g->opt].name, rows[g->opt].name, next);
+    return true;
+}
+
 enum options_result options_read(int argc, char **argv, unsigned command, struct options *out)
 {
     *out = (struct options){.depth = DEPTH_OF_SCENE,
-                            .fps = 24,
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000,
                             .max_pixels = IMAGE_PIXEL_LIMIT,
@@ -180,7 +198,8 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
         struct given g = parse_option(argv[i], i + 1 < argc ? argv[i + 1] : NULL);
         if (g.opt == OPT_HELP || g.opt == OPT_VERSION)
             return g.opt == OPT_HELP ? OPTIONS_HELP : OPTIONS_VERSION;
-        if (!accept(&g, argv[i], command, out))
+        if (!accept(&g, argv[i], command, out) ||
+            meant_as_argument(&g, i + 1 < argc ? argv[i + 1] : NULL))
             return OPTIONS_WRONG;
         i += g.words;
     }

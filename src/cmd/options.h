@@ -59,11 +59,12 @@ struct options {
     bool mpi;
     bool animated;
     uint32_t frames[2]; /* first and last */
-    uint32_t fps;
-    uint32_t depth; /* or DEPTH_OF_SCENE */
+    uint32_t fps;       /* 0: as usual */
+    uint32_t depth;     /* or DEPTH_OF_SCENE */
     uint32_t threads;
     bool own_threads; /* not given: as many as there are processors */
     uint64_t seed;
+    bool seeded; /* given */
     size_t max_objects;
     uint64_t max_memory; /* bytes; 0: no limit */
     uint32_t max_pixels, max_depth;

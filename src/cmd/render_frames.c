@@ -1,8 +1,9 @@
 /* wrt render --frames: one picture after another of a scene with the params `frame` and `time`.
  *
  * Beside the pictures lies a text that says which frames are there: for each a line of its number,
- * the check of its head (what it is of) and the hash of its file.  Lines are appended whole, so
- * several processes may write them; the last of a frame holds. */
+ * the check of its head (what it is of) and the hash of its file.  Lines are appended whole, or
+ * take the place of the frame's older one, which is as long: several processes may write them.  The
+ * last of a frame holds. */
 #include "config.h"
 
 #include "cmd/render_run.h"
@@ -17,6 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+enum { FPS = 24 }; /* where --fps is not given */
 
 /* Where the number of the frame comes in a name. */
 struct place {
@@ -69,6 +72,7 @@ static char *frame_name(const char *pattern, uint32_t frame)
 struct record {
     uint32_t frame;
     uint64_t check, file;
+    off_t at; /* of its line in the text */
 };
 
 struct frames {
@@ -94,10 +98,22 @@ static void read_list(struct frames *f)
         *end = 0;
         if (sscanf(line, "frame %" SCNu32 " %16" SCNx64 " %16" SCNx64 "%n", &r.frame, &r.check,
                    &r.file, &length) == 3 &&
-            line + length == end)
+            line + length == end) {
+            r.at = line - text;
             vec_push(&f->records, r);
+        }
     }
     free(text);
+}
+
+/* What the text says of the frame under way, or NULL. */
+static const struct record *find_record(const struct frames *f)
+{
+    const struct record *last = NULL;
+    for (size_t i = 0; i < f->records.n; i++)
+        if (f->records.at[i].frame == f->frame)
+            last = &f->records.at[i];
+    return last;
 }
 
 static uint64_t check_of(const struct tilefile_head *h)
@@ -124,14 +140,22 @@ bool render_frame_is_there(struct render_run *r)
 {
     struct frames *f = r->frames;
     uint64_t check = check_of(&r->head), file;
-    const struct record *last = NULL;
-    for (size_t i = 0; i < f->records.n; i++)
-        if (f->records.at[i].frame == f->frame)
-            last = &f->records.at[i];
+    const struct record *last = find_record(f);
     bool there = last && last->check == check && hash_file(r->output, &file) && file == last->file;
     if (there && r->options->verbose)
         fprintf(stderr, "wrt: '%s' is there and stays\n", r->output);
     return there;
+}
+
+/* Whether the frame's older line still stands where it was; the file is at it then. */
+static bool to_older_line(const struct frames *f, int fd, const struct buffer *line)
+{
+    const struct record *old = find_record(f);
+    char text[64];
+    size_t same = strcspn(line->at + strlen("frame "), " ") + strlen("frame ") + 1;
+    return old && line->n <= sizeof text && pread(fd, text, line->n, old->at) == (ssize_t)line->n &&
+           memcmp(text, line->at, same) == 0 && text[line->n - 1] == '\n' &&
+           lseek(fd, old->at, SEEK_SET) == old->at;
 }
 
 const char *render_frame_record(struct render_run *r)
@@ -142,8 +166,12 @@ const char *render_frame_record(struct render_run *r)
     hash_file(r->output, &file);
     buffer_printf(&line, "frame %" PRIu32 " %016" PRIx64 " %016" PRIx64 "\n", f->frame,
                   check_of(&r->head), file);
-    int fd = open(f->list, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    const char *reason = fd < 0 ? strerror(errno) : file_put(fd, line.at, line.n);
+    int fd = open(f->list, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const char *reason = fd < 0 ? strerror(errno) : NULL;
+    if (!reason && !to_older_line(f, fd, &line) && fcntl(fd, F_SETFL, O_APPEND) != 0)
+        reason = strerror(errno);
+    if (!reason)
+        reason = file_put(fd, line.at, line.n);
     if (fd >= 0)
         close(fd);
     buffer_free(&line);
@@ -172,14 +200,17 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
     struct buffer defines[2] = {{0}, {0}};
     buffer_printf(&defines[0], "frame=%" PRIu32 "%c", f->frame, 0);
     buffer_puts(&defines[1], "time=");
-    buffer_number(&defines[1], (double)f->frame / o->fps);
+    buffer_number(&defines[1], (double)f->frame / (o->fps ? o->fps : FPS));
     buffer_add(&defines[1], "", 1);
     struct options mine = frame_options(o, (const char *const[]){defines[0].at, defines[1].at});
     char *name = frame_name(pattern, f->frame);
     char *journal = o->checkpoint ? frame_name(o->checkpoint, f->frame) : NULL;
-    mine.checkpoint = journal;
-    struct render_run r = {
-        .options = &mine, .output = name, .frames = f, .files = files, .cluster = f->cluster};
+    struct render_run r = {.options = &mine,
+                           .output = name,
+                           .checkpoint = journal,
+                           .frames = f,
+                           .files = files,
+                           .cluster = f->cluster};
     r.render.store = trees;
     int status = render_picture(&r);
     render_run_free(&r);
@@ -191,11 +222,24 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
     return status;
 }
 
+/* Whether -D gives this param. */
+static bool defines(const struct options *o, const char *name)
+{
+    size_t n = strlen(name);
+    for (size_t i = 0; i < o->defines.n; i++)
+        if (strncmp(o->defines.at[i], name, n) == 0 && o->defines.at[i][n] == '=')
+            return true;
+    return false;
+}
+
 int render_frames(const struct options *o, const char *pattern, struct cluster *cluster)
 {
     struct place place;
     if (!find_place(pattern, &place))
         return usage_error("--frames wants one %%04d in the output's name, not '%s'", pattern);
+    if (defines(o, "frame") || defines(o, "time"))
+        return usage_error("--frames gives the params 'frame' and 'time' their values, so -D "
+                           "cannot give them others; --fps sets how fast time goes");
     if (o->checkpoint && !find_place(o->checkpoint, &place))
         return usage_error("--frames wants one %%04d in the journal's name, not '%s'",
                            o->checkpoint);

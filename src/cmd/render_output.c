@@ -112,9 +112,9 @@ static int check_names(const struct render_run *r)
         return 0;
     if (file_same(r->output, o->scenes.at[0]))
         return usage_error("'%s' is the scene; it would be lost under what is written", r->output);
-    if (o->checkpoint && file_same(r->output, o->checkpoint))
+    if (r->checkpoint && file_same(r->output, r->checkpoint))
         return usage_error("--checkpoint: the journal cannot be '%s', which the picture goes to",
-                           o->checkpoint);
+                           r->checkpoint);
     return 0;
 }
 
@@ -131,25 +131,28 @@ int render_check_output(struct render_run *r)
 
 int render_open_journal(struct render_run *r)
 {
-    const struct options *o = r->options;
     struct buffer why = {0};
     struct tilefile_head head = r->head;
     head.part = head.parts = 0;
-    if (!o->checkpoint)
+    if (!r->checkpoint)
         return 0;
     int status = 0;
-    switch (journal_open(o->checkpoint, o->resume, &head, r->picture, &r->journal, &why)) {
+    switch (journal_open(r->checkpoint, r->options->resume, &head, r->picture, &r->journal, &why)) {
     case JOURNAL_OPEN:
         break;
     case JOURNAL_EXISTS:
         status = usage_error("--checkpoint: there is a '%s' already; --resume goes on with it",
-                             o->checkpoint);
+                             r->checkpoint);
+        break;
+    case JOURNAL_TAKEN:
+        status = usage_error("--checkpoint: '%s' is there and is no journal, so it stays as it is",
+                             r->checkpoint);
         break;
     case JOURNAL_UNUSABLE:
-        status = report_file(r, DIAG_OTHER_TILES, "cannot resume from", o->checkpoint, why.at);
+        status = report_file(r, DIAG_OTHER_TILES, "cannot resume from", r->checkpoint, why.at);
         break;
     case JOURNAL_FAILED:
-        status = report_output(r, o->checkpoint, why.at);
+        status = report_output(r, r->checkpoint, why.at);
         break;
     }
     buffer_free(&why);
@@ -255,33 +258,54 @@ int render_finish(struct render_run *r)
         reason = journal_close(r->journal, status == 0);
         r->journal = NULL;
         if (reason)
-            status = report_output(r, r->options->checkpoint, reason);
+            status = report_output(r, r->checkpoint, reason);
     }
     return status;
+}
+
+/* Of a picture in a limited time no part is finished before the whole is. */
+static void tell_share(const struct render_run *r, int number)
+{
+    size_t have = atomic_load(&r->finished), all = r->head.parts ? r->expected : r->tiling.n;
+    fprintf(stderr, "wrt: ended by signal %d ", number);
+    if (r->options->time > 0)
+        fputs("before the time was over", stderr);
+    else
+        fprintf(stderr, "with %.1f %% of the %s", 100.0 * (double)have / (double)all,
+                r->head.parts ? "part" : "picture");
+}
+
+/* Writes the picture so far, if there is a place for it, and says where; false: it is lost. */
+static bool save_picture(struct render_run *r)
+{
+    if (r->head.parts > 0 || !output_is_regular(r->output))
+        return false;
+    char why[IMAGE_REASON_BYTES], *path = partial_name(r->output);
+    const char *reason = write_picture(r, path, why);
+    if (reason)
+        fprintf(stderr, "; could not write '%s': %s", path, reason);
+    else if (r->options->time > 0)
+        fprintf(stderr, "; the picture so far is in '%s'", path);
+    else
+        fprintf(stderr, ", which is in '%s'", path);
+    free(path);
+    return !reason;
 }
 
 int render_save(struct render_run *r)
 {
     int number = interrupt_flag;
-    size_t have = atomic_load(&r->finished), all = r->tiling.n;
     const char *reason = r->journal ? journal_close(r->journal, false) : NULL;
-    bool saved = r->journal && !reason;
+    bool journal = r->journal && !reason;
     r->journal = NULL;
     if (reason)
-        report_output(r, r->options->checkpoint, reason);
-    fprintf(stderr, "wrt: ended by signal %d with %.1f %% of the picture", number,
-            100.0 * (double)have / (double)all);
-    if (r->head.parts == 0 && output_is_regular(r->output)) {
-        char why[IMAGE_REASON_BYTES], *path = partial_name(r->output);
-        reason = write_picture(r, path, why);
-        if (reason)
-            fprintf(stderr, "; could not write '%s': %s", path, reason);
-        else
-            fprintf(stderr, ", which is in '%s'", path);
-        free(path);
-    }
-    if (saved)
+        report_output(r, r->checkpoint, reason);
+    tell_share(r, number);
+    bool picture = save_picture(r);
+    if (journal)
         fprintf(stderr, "; --checkpoint '%s' --resume goes on", r->options->checkpoint);
+    else if (!picture)
+        fputs("; nothing of it was kept", stderr);
     fputs("\n", stderr);
     return 128 + number;
 }

@@ -20,7 +20,8 @@ struct render_run {
     struct rendering *rendering;
     struct frontend frontend;
     struct lowered lowered;
-    const char *output; /* path of the picture, or of a part */
+    const char *output;     /* path of the picture, or of a part */
+    const char *checkpoint; /* path of its journal, or NULL */
     enum picture_format format;
     uint32_t bits; /* a channel of the file */
     struct render_options render;

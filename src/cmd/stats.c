@@ -56,15 +56,27 @@ static json_t *cluster_json(const struct run_stats *s)
                      (json_int_t)s->cluster.messages, "bytes", (json_int_t)s->cluster.bytes);
 }
 
+/* Whether no pixel has enough samples for its error to be told. */
+static bool error_unknown(const struct run_stats *s)
+{
+    return s->render.adaptive.unfinished == (uint64_t)s->width * s->height;
+}
+
+static json_t *error_json(const struct run_stats *s, double error)
+{
+    return error_unknown(s) ? json_null() : json_real(error);
+}
+
 /* NULL where it was not asked for. */
 static json_t *adaptive_json(const struct run_stats *s, const struct options *o)
 {
     const struct adaptive_stats *a = &s->render.adaptive;
     if (!(o->adaptive > 0))
         return NULL;
-    return json_pack("{s:f, s:f, s:i, s:f, s:f, s:I}", "error", o->adaptive, "samples_mean",
-                     samples_mean(s), "samples_max", (int)a->most, "estimated_error", a->error,
-                     "estimated_error_max", a->worst, "unfinished", (json_int_t)a->unfinished);
+    return json_pack("{s:f, s:f, s:i, s:o, s:o, s:I}", "error", o->adaptive, "samples_mean",
+                     samples_mean(s), "samples_max", (int)a->most, "estimated_error",
+                     error_json(s, a->error), "estimated_error_max", error_json(s, a->worst),
+                     "unfinished", (json_int_t)a->unfinished);
 }
 
 /* Numbers of what was left out, from one row of skips.def to another. */
@@ -103,6 +115,26 @@ static void put_count(size_t n, const char *what, const char *behind)
     fprintf(stderr, "%zu %s%s%s", n, what, n == 1 ? "" : "s", behind);
 }
 
+/* An error above the one wanted has a reason: the time, or the most samples that a pixel may have.
+ */
+static void adaptive_text(const struct run_stats *s, const struct options *o)
+{
+    const struct adaptive_stats *a = &s->render.adaptive;
+    const char *why =
+        s->late ? ": --time was too short" : ": some pixels took all samples they may";
+    fprintf(stderr, "adaptive   %u sample%s a pixel at most; estimated error ", a->most,
+            a->most == 1 ? "" : "s");
+    if (error_unknown(s))
+        fputs("not known", stderr);
+    else
+        fprintf(stderr, "%.2g, %.2g at most", a->error, a->worst);
+    fprintf(stderr, " (%.2g wanted%s)\n", o->adaptive,
+            a->unfinished > 0 || a->worst > o->adaptive ? why : "");
+    if (a->unfinished > 0)
+        fprintf(stderr, "unfinished %llu pixels, whose error is not known\n",
+                (unsigned long long)a->unfinished);
+}
+
 static void render_text(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
@@ -115,12 +147,7 @@ static void render_text(const struct run_stats *s, const struct options *o,
         fprintf(stderr, "%u sample%s a pixel, ", s->grid * s->grid, s->grid > 1 ? "s" : "");
     fprintf(stderr, "%u thread%s, %s\n", o->threads, o->threads > 1 ? "s" : "", isa_name(o->isa));
     if (o->adaptive > 0)
-        fprintf(stderr,
-                "adaptive   %u samples a pixel at most; estimated error %.2g, %.2g at most "
-                "(%.2g wanted)\n",
-                r->adaptive.most, r->adaptive.error, r->adaptive.worst, o->adaptive);
-    if (r->adaptive.unfinished > 0)
-        fprintf(stderr, "unfinished %llu pixels\n", (unsigned long long)r->adaptive.unfinished);
+        adaptive_text(s, o);
     fputs("scene      ", stderr);
     put_count(scene->surfaces.n, "surface", ", ");
     put_count(count_triangles(scene), "triangle", ", ");

@@ -15,6 +15,7 @@ struct run_stats {
     uint32_t width, height;
     uint32_t grid; /* samples along each side of a pixel */
     struct render_stats render;
+    bool late; /* --time ended the work */
     int ranks; /* 0: there is no cluster */
     struct cluster_stats cluster;
 };

@@ -111,13 +111,29 @@ static enum journal_opened refuse(struct buffer *why, enum journal_opened kind, 
     return kind;
 }
 
+/* Whether what is there began as a journal. */
+static bool is_journal(const char *path)
+{
+    struct stat st;
+    struct tilefile t;
+    bool torn;
+    if (stat(path, &st) != 0 || !S_ISREG(st.st_mode))
+        return false;
+    if (tilefile_open(&t, path, &torn))
+        return torn;
+    tilefile_close(&t);
+    return true;
+}
+
 /* A file of this process alone. */
 static enum journal_opened open_file(struct journal *j, bool resume, struct buffer *why)
 {
     struct stat st;
     j->fd = open(j->path, O_RDWR | O_CREAT | O_CLOEXEC | (resume ? 0 : O_EXCL), 0666);
+    if (j->fd < 0 && errno == EEXIST)
+        return refuse(why, is_journal(j->path) ? JOURNAL_EXISTS : JOURNAL_TAKEN, strerror(EEXIST));
     if (j->fd < 0)
-        return refuse(why, errno == EEXIST ? JOURNAL_EXISTS : JOURNAL_FAILED, strerror(errno));
+        return refuse(why, JOURNAL_FAILED, strerror(errno));
     if (fstat(j->fd, &st) != 0)
         return refuse(why, JOURNAL_FAILED, strerror(errno));
     if (!S_ISREG(st.st_mode))

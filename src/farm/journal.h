@@ -12,7 +12,8 @@ struct journal;
 
 enum journal_opened {
     JOURNAL_OPEN,
-    JOURNAL_EXISTS,   /* there is such a file, and going on with it was not asked for */
+    JOURNAL_EXISTS,   /* there is one, and going on with it was not asked for */
+    JOURNAL_TAKEN,    /* there is a file that is no journal */
     JOURNAL_UNUSABLE, /* it is another picture's, or no journal */
     JOURNAL_FAILED,   /* the system says no */
 };

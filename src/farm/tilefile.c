@@ -23,7 +23,20 @@ enum { ENCODINGS = 3, DEPTHS = 3 };
 /* Before and behind the pixels of a record. */
 enum { RECORD_HEAD = 16, RECORD_CHECK = 8 };
 
+/* What the first line says, but for the version of the layout. */
+static const char MARK[] = "wrt tiles ";
+
 /* ---- heads ---- */
+
+bool tilefile_recognised(const char *bytes, size_t n)
+{
+    return n >= strlen(MARK) && memcmp(bytes, MARK, strlen(MARK)) == 0;
+}
+
+int tilefile_bits(const struct tilefile_head *h)
+{
+    return bits[h->depth];
+}
 
 struct tiling tilefile_tiling(const struct tilefile_head *h)
 {

@@ -6,9 +6,9 @@
  *     version 0.1.0
  *     scene 0123456789abcdef                the scene's fingerprint
  *     settings 640x480 samples 4 ...        all else that can change a byte
- *     stored 640x480 8 srgb little          pixels of the crop; bits a channel, encoding, byte
- * order part 1 7                              0 0 for a journal check 0123456789abcdef of all lines
- * before
+ *     stored 640x480 8 srgb little          pixels of the crop; bits, encoding, byte order
+ *     part 1 7                              0 0 for a journal
+ *     check 0123456789abcdef                of all lines before
  *
  * A record is two 64-bit numbers, the first tile and how many there are; the pixels of these tiles
  * as they lie in memory, row by row in each; and the XXH64 of all that, with the head's check as
@@ -35,6 +35,12 @@ struct tilefile_head {
     enum picture_encoding encoding;
     uint32_t part, parts; /* from 1; 0: a journal */
 };
+
+/* Whether the bytes start as such a file does. */
+bool tilefile_recognised(const char *bytes, size_t n);
+
+/* The bits a channel of its pixels. */
+int tilefile_bits(const struct tilefile_head *h);
 
 /* NULL when both are of one picture; else what differs, as in "it is of another scene". */
 const char *tilefile_other(const struct tilefile_head *a, const struct tilefile_head *b,

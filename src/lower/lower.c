@@ -38,19 +38,29 @@ static void lower_camera(struct lowering *l)
         lower_classic_camera(o, c);
 }
 
-/* Classic has no choice; a modern scene without settings has their defaults. */
-static void lower_settings(struct lowering *l)
+/* A modern scene without settings has their defaults. */
+static const struct desc_object *settings_of(const struct desc *d)
 {
     static const struct desc_object defaults = {.kind = KIND_SETTINGS, .model = SCHEMA_MODERN};
-    const struct desc_object *o = l->desc->settings ? l->desc->settings : &defaults;
+    return d->settings ? d->settings : &defaults;
+}
+
+/* Classic has no choice. */
+uint32_t lower_depth(const struct desc *d)
+{
+    return d->model == SCHEMA_CLASSIC ? 3 : (uint32_t)desc_number(settings_of(d), PROP_DEPTH);
+}
+
+static void lower_settings(struct lowering *l)
+{
+    const struct desc_object *o = settings_of(l->desc);
     struct scene *s = l->scene;
-    s->depth = 3;
+    s->depth = lower_depth(l->desc);
     s->grid = 1;
     if (s->model == SCENE_CLASSIC)
         return;
     s->background = desc_vector(o, PROP_BACKGROUND);
     s->ambient = desc_vector(o, PROP_AMBIENT);
-    s->depth = (uint32_t)desc_number(o, PROP_DEPTH);
     s->grid = (uint32_t)desc_number(o, PROP_SAMPLES);
     s->linear = desc_word(o, PROP_ENCODING) == 1;
 }

@@ -46,4 +46,7 @@ bool lower_scene_copied(const struct desc *d, struct srcmap *sources, struct low
 
 void lower_free(struct lowered *l);
 
+/* How often rays of the scene are mirrored or refracted. */
+uint32_t lower_depth(const struct desc *d);
+
 #endif

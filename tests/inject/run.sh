@@ -36,9 +36,12 @@ attempt()
     (
         cd "$1" || exit 1
         PATH=$work/bin:$PATH
-        eval "exec timeout 20 env LD_PRELOAD=\$inject INJECT=\$2 INJECT_LOG=\$1.log $3" >"$1.out" 2>"$1.err"
+        eval "timeout 20 env LD_PRELOAD=\$inject INJECT=\$2 INJECT_LOG=\$1.log $3" >"$1.out" 2>"$1.err"
+        echo $? >"$1.status"
     ) </dev/null
-    local status=$?
+    # Not $?: once process numbers come round, bash may tell an older process's.
+    local status
+    status=$(<"$1.status")
     # Times and memory are others each time.
     [ ! -s "$1.out" ] || sed -Ei 's/"([a-z]+_s|peak|peak_rss_bytes)": [0-9.e-]+/\1/; s/peak [0-9.]+ MB/peak/' "$1.out"
     return $status
