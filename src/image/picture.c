@@ -205,32 +205,42 @@ double picture_channel(enum picture_encoding encoding, double c)
     return encoding == ENCODING_SRGB ? srgb_encode(c) : c;
 }
 
+uint8_t picture_byte(const struct picture *p, double c)
+{
+    return p->srgb ? srgb_byte(p->srgb, c) : (uint8_t)channel_whole(c, 255, picture_rounding(p));
+}
+
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
 {
     size_t at = ((size_t)y * p->width + x) * 3;
     double channel[3] = {colour.x * p->gain, colour.y * p->gain, colour.z * p->gain};
-    double rounding = picture_rounding(p);
     for (int i = 0; i < 3; i++) {
         double c = channel[i];
         if (p->floats)
             p->floats[at + i] = (float)c;
         else if (p->words)
             p->words[at + i] = channel_whole(picture_channel(p->encoding, c), 65535, 0.5);
-        else if (p->srgb)
-            p->bytes[at + i] = srgb_byte(p->srgb, c);
         else
-            p->bytes[at + i] = (uint8_t)channel_whole(c, 255, rounding);
+            p->bytes[at + i] = picture_byte(p, c);
     }
+}
+
+/* Its fourth byte is the next pixel's first. */
+static void put_pixel(uint8_t *to, uint32_t pixel)
+{
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    pixel = __builtin_bswap32(pixel);
+#endif
+    memcpy(to, &pixel, sizeof pixel);
 }
 
 void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n)
 {
     uint8_t *to = p->bytes + ((size_t)y * p->width + x) * 3;
-    for (uint32_t i = 0; i < n; i++, to += 3) {
-        to[0] = (uint8_t)pixels[i];
-        to[1] = (uint8_t)(pixels[i] >> 8);
-        to[2] = (uint8_t)(pixels[i] >> 16);
-    }
+    for (uint32_t i = 0; i + 1 < n; i++, to += 3)
+        put_pixel(to, pixels[i]);
+    for (int i = 0; i < 3 && n > 0; i++)
+        to[i] = (uint8_t)(pixels[n - 1] >> 8 * i);
 }
 
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

@@ -65,6 +65,9 @@ double picture_channel(enum picture_encoding encoding, double c);
  * may set different pixels at once. */
 void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
 
+/* What a byte holds of a channel. */
+uint8_t picture_byte(const struct picture *p, double c);
+
 /* Stores n pixels in a row, from (x, y) on: red in the low byte, then green and blue. */
 void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n);
 

@@ -31,6 +31,6 @@ void srgb_bytes_init(struct srgb_bytes *s)
         double light = ldexp(1 + digits, (int)(i >> SRGB_DIGITS) - SRGB_OCTAVES);
         while (light >= s->from[byte + 1])
             byte++;
-        s->first[i] = (uint8_t)byte;
+        s->first[i] = byte;
     }
 }

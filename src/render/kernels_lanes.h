@@ -2,6 +2,7 @@
  * RENDER_KERNELS to the name of its table.
  *
  * The same operations in the same order as the reference in kernels_plain.c. */
+#include "math/srgb_bytes.h"
 #include "render/hit_lanes.h"
 #include "render/sight_lanes.h"
 
@@ -293,19 +294,41 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
-static inline vint32 bytes_of(vreal c, double rounding)
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+static inline vint32 plain_bytes(double rounding, vreal c)
 {
     vreal zero = v_all(0), byte = c * 255 + rounding;
     byte = v_select(v_less(c, v_all(1)), byte, v_all(255));
     return v_int32(v_select(v_less(zero, c), byte, zero));
 }
 
-static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels)
+/* See srgb_byte. */
+static inline vint32 srgb_bytes(const struct srgb_bytes *s, vreal light)
 {
+    vreal least = v_all(s->from[1]), one = v_all(1);
+    vmask some = v_at_most(least, light), full = v_at_most(one, light);
+    vint bits = (vint)v_select(v_less(light, one), v_select(some, light, least), least);
+    vint byte = v_gather_uint32(s->first, (bits >> (52 - SRGB_DIGITS)) - SRGB_FIRST);
+    byte = v_select_int(v_at_most(v_gather(s->from + 1, byte), light), byte + 1, byte);
+    byte = v_select_int(full, (vint){0} + 255, v_select_int(some, byte, (vint){0}));
+    return __builtin_convertvector(byte, vint32);
+}
+
+static inline vint32 bytes_of(const struct picture *out, double rounding, vreal c)
+{
+    return out->srgb ? srgb_bytes(out->srgb, c) : plain_bytes(rounding, c);
+}
+
+static void pack(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
+                 uint32_t *pixels)
+{
+    double rounding = picture_rounding(out);
     for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 c = v3_load(colours, i);
-        vint32 red = bytes_of(c.x, rounding), green = bytes_of(c.y, rounding);
-        v_store_int32((int32_t *)pixels + i, red | green << 8 | bytes_of(c.z, rounding) << 16);
+        struct vvec3 c = v3_scale(v3_load(colours, i), v_all(out->gain));
+        vint32 red = bytes_of(out, rounding, c.x), green = bytes_of(out, rounding, c.y);
+        vint32 blue = bytes_of(out, rounding, c.z);
+        v_store_int32((int32_t *)pixels + i, red | green << 8 | blue << 16);
     }
 }
 

@@ -137,18 +137,13 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
     return b;
 }
 
-/* The comparisons are false for NaN. */
-static uint32_t byte_of(double c, double rounding)
-{
-    double byte = c < 1 ? c * 255 + rounding : 255;
-    return (uint32_t)(c > 0 ? byte : 0);
-}
-
-static void pack(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels)
+static void pack(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
+                 uint32_t *pixels)
 {
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t green = byte_of(colours->y[i], rounding), blue = byte_of(colours->z[i], rounding);
-        pixels[i] = byte_of(colours->x[i], rounding) | green << 8 | blue << 16;
+        struct vec3 c = vec3_scale(vec3_get(colours, i), out->gain);
+        uint32_t green = picture_byte(out, c.y), blue = picture_byte(out, c.z);
+        pixels[i] = picture_byte(out, c.x) | green << 8 | blue << 16;
     }
 }
 

@@ -206,15 +206,22 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
     }
 }
 
+static void scale_all(double *to, const double *x, double by, uint32_t n)
+{
+    for (uint32_t k = 0; k < n; k++)
+        to[k] = x[k] * by;
+}
+
 static struct box modern_begin(struct worker *w)
 {
     const struct shade_batch *points = &w->points;
-    for (uint32_t k = 0; k < points->n; k++) {
-        struct vec3 diffuse = vec3_get(&points->diffuse, k);
-        bool glows = points->finish[k]->glows;
-        vec3_put(&w->light.direct, k,
-                 glows ? diffuse : vec3_mul(diffuse, w->tracer->scene->ambient));
-    }
+    struct vec3 ambient = w->tracer->scene->ambient;
+    scale_all(w->light.direct.x, points->diffuse.x, ambient.x, points->n);
+    scale_all(w->light.direct.y, points->diffuse.y, ambient.y, points->n);
+    scale_all(w->light.direct.z, points->diffuse.z, ambient.z, points->n);
+    for (uint32_t k = 0; k < points->n && points->any_glowing; k++)
+        if (points->finish[k]->glows)
+            vec3_put(&w->light.direct, k, vec3_get(&points->diffuse, k));
     return w->tracer->kernels->bounds(shadow_origins(points), points->n);
 }
 

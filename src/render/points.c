@@ -75,28 +75,6 @@ static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
     return differing == 0 && hits->prim[0] != PRIM_NONE;
 }
 
-/* Puts the rays that hit something in the order of their primitives' kinds. */
-static void sort_hits(struct worker *w, uint32_t n)
-{
-    const struct prim *prims = w->tracer->scene->geometry.prims.at;
-    struct shade_batch *points = &w->points;
-    uint32_t of_kind[PRIM_KINDS][BATCH], count[PRIM_KINDS] = {0};
-    for (uint32_t i = 0; i < n; i++) {
-        if (w->hits.prim[i] == PRIM_NONE)
-            continue;
-        unsigned kind = prims[(uint32_t)w->hits.prim[i]].kind;
-        of_kind[kind][count[kind]++] = i;
-    }
-    points->in_order = false;
-    for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
-        w->shapes.first[kind] = points->n;
-        memcpy(points->ray + points->n, of_kind[kind], count[kind] * sizeof *points->ray);
-        points->n += count[kind];
-        points->in_order |= count[kind] == n;
-    }
-    w->shapes.first[PRIM_KINDS] = points->n;
-}
-
 /* Those of points that all lie on one primitive, as most tiles' do. */
 static void note_same(struct worker *w, uint32_t n)
 {
@@ -115,17 +93,49 @@ static void note_same(struct worker *w, uint32_t n)
     points->in_order = true;
 }
 
+/* Puts the points in the order of their kinds, of which there are some. */
+static void sort_kinds(struct worker *w)
+{
+    const struct prim *prims = w->tracer->scene->geometry.prims.at;
+    struct shade_batch *points = &w->points;
+    uint32_t ray[BATCH], prim[BATCH], n = 0;
+    memcpy(ray, points->ray, points->n * sizeof *ray);
+    memcpy(prim, points->prim, points->n * sizeof *prim);
+    for (unsigned kind = 0; kind < PRIM_KINDS; kind++) {
+        w->shapes.first[kind] = n;
+        for (uint32_t k = 0; k < points->n; k++) {
+            if (prims[prim[k]].kind != kind)
+                continue;
+            points->ray[n] = ray[k];
+            points->prim[n] = prim[k];
+            points->surface[n] = prims[prim[k]].surface;
+            w->shapes.index[n++] = prims[prim[k]].index;
+        }
+    }
+    w->shapes.first[PRIM_KINDS] = n;
+    points->in_order = false;
+}
+
 static void note_any(struct worker *w, uint32_t n)
 {
     const struct prim *prims = w->tracer->scene->geometry.prims.at;
     struct shade_batch *points = &w->points;
-    sort_hits(w, n);
-    for (uint32_t k = 0; k < points->n; k++) {
-        uint32_t number = (uint32_t)w->hits.prim[points->ray[k]];
-        points->prim[k] = number;
-        points->surface[k] = prims[number].surface;
-        w->shapes.index[k] = prims[number].index;
+    unsigned kinds = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t number = (uint32_t)w->hits.prim[i], hit = number != PRIM_NONE;
+        struct prim prim = hit ? prims[number] : (struct prim){0};
+        points->ray[points->n] = i;
+        points->prim[points->n] = number;
+        points->surface[points->n] = prim.surface;
+        w->shapes.index[points->n] = prim.index;
+        kinds |= hit << prim.kind;
+        points->n += hit;
     }
+    points->in_order = points->n == n;
+    for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
+        w->shapes.first[kind] = kinds >> kind ? 0 : points->n;
+    if (kinds & (kinds - 1))
+        sort_kinds(w);
 }
 
 static void pick(double *to, const double *from, const uint32_t *which, uint32_t n)
@@ -164,9 +174,19 @@ static void pick_rays(struct worker *w, const struct ray_batch *rays)
     }
 }
 
+static bool lie_on_one_surface(const struct shade_batch *points)
+{
+    uint32_t differing = 0;
+    for (uint32_t k = 1; k < points->n; k++)
+        differing |= points->surface[k] ^ points->surface[0];
+    return differing == 0;
+}
+
 /* The end of the points from `first` on that lie on the same surface. */
 static uint32_t end_of_surface(const struct shade_batch *points, uint32_t first)
 {
+    if (points->one_surface)
+        return points->n;
     uint32_t end = first + 1;
     while (end < points->n && points->surface[end] == points->surface[first])
         end++;
@@ -178,6 +198,7 @@ static void note_surfaces(struct worker *w)
     struct shade_batch *points = &w->points;
     struct hit_shapes *shapes = &w->shapes;
     shapes->weighted = shapes->bent = points->curved = false;
+    points->one_surface = lie_on_one_surface(points);
     for (uint32_t k = 0; k < points->n; k = end_of_surface(points, k)) {
         const struct surface *s = &w->tracer->scene->surfaces.at[points->surface[k]];
         shapes->weighted |= surface_interpolates(s);
@@ -378,7 +399,6 @@ static void finish_points(struct worker *w)
     for (uint32_t first = 0, end; first < points->n; first = end) {
         end = end_of_surface(points, first);
         finish_run(w, first, end);
-        points->one_surface = end - first == points->n;
     }
     if (points->curved)
         vec3_copy(&points->smooth, points->n, &points->normal);

@@ -84,10 +84,9 @@ static void store_tile(struct rendering *r, const struct tile *tile,
     struct picture *out = r->out;
     uint32_t width = tile->x1 - tile->x0, x = tile->x0 - r->tiling.whole.x0, n = 0;
     uint32_t pixels[BATCH_ROOM];
-    bool packed = out->bytes && !out->srgb && out->gain == 1;
+    bool packed = out->bytes != NULL;
     if (packed)
-        r->tracer.kernels->pack(colours, width * (tile->y1 - tile->y0), picture_rounding(out),
-                                pixels);
+        r->tracer.kernels->pack(out, colours, width * (tile->y1 - tile->y0), pixels);
     for (uint32_t row = tile->y0; row < tile->y1; row++, n += width) {
         uint32_t y = row - r->tiling.whole.y0;
         if (packed)

@@ -265,8 +265,9 @@ struct render_kernels {
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
-    /* Colours as pixels of 8 bits a channel, see picture_set_row. */
-    void (*pack)(const struct vec3_batch *colours, uint32_t n, double rounding, uint32_t *pixels);
+    /* Colours as pixels of a picture of bytes, see picture_set_row. */
+    void (*pack)(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
+                 uint32_t *pixels);
     /* Fills in what the points from `first` to `end`, which lie on `prims`, see of an area light,
      * behind the targets of sight->list.  Bit k of `opaque`: target k hides what is behind it. */
     void (*see)(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,

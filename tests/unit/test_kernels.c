@@ -2,6 +2,7 @@
 
 #include "image/codec.h"
 #include "math/rng.h"
+#include "math/srgb_bytes.h"
 #include "render/tracer.h"
 #include "unit.h"
 
@@ -409,24 +410,40 @@ START_TEST(points_lie_where_single_ones_do)
 }
 END_TEST
 
-/* As picture_set stores them. */
+/* A channel from below black to beyond white, often on the very edge of a byte. */
+static double channel_at(const struct picture *p, uint64_t run, uint32_t i)
+{
+    static const double special[] = {-1, -0.0, 0x1p-1074, 0x1p-13, 1, 2, INFINITY, -INFINITY, NAN};
+    uint32_t byte = (uint32_t)(256 * random_at(run, i, 0));
+    double light = p->srgb ? p->srgb->from[byte] : (byte + 1 - picture_rounding(p)) / 255;
+    if (i % 8 == 0)
+        return special[i / 8 % (sizeof special / sizeof *special)];
+    return i % 4 == 1 ? light : i % 4 == 2 ? nextafter(light, 0) : random_at(run, i, 1);
+}
+
+/* As picture_set stores them, in the middle of a row; bit 2: brighter. */
 START_TEST(packed_pixels_are_those_of_single_colours)
 {
     struct vec3_batch colours;
-    struct picture *p = picture_new(BATCH, 1, false), *q = picture_new(BATCH, 1, false);
-    picture_encode_as(p, _i ? ENCODING_LINEAR : ENCODING_PLAIN);
+    struct picture *p = picture_new(BATCH + 2, 1, PICTURE_BYTES);
+    struct picture *q = picture_new(BATCH + 2, 1, PICTURE_BYTES);
+    picture_encode_as(p, (enum picture_encoding)(_i % 3));
+    picture_encode_as(q, p->encoding);
+    p->gain = q->gain = _i / 3 % 2 ? 1.7 : 1;
     for (uint32_t i = 0; i < BATCH_ROOM; i++)
         vec3_put(&colours, i,
-                 vec3(coordinate_at(7, i, 0), coordinate_at(8, i, 1), coordinate_at(9, i, 2)));
+                 vec3(channel_at(p, (uint64_t)_i, i), channel_at(p, 100 + (uint64_t)_i, i + 1),
+                      channel_at(p, 200 + (uint64_t)_i, i + 2)));
     for (uint32_t i = 0; i < BATCH; i++)
-        picture_set(p, i, 0, vec3_get(&colours, i));
+        picture_set(p, 1 + i, 0, vec3_get(&colours, i));
     for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
         uint32_t pixels[BATCH_ROOM];
         if (!isa_available((enum isa)isa))
             continue;
-        render_kernels_of((enum isa)isa)->pack(&colours, BATCH, picture_rounding(p), pixels);
-        picture_set_row(q, 0, 0, pixels, BATCH);
-        ck_assert_int_eq(memcmp(p->bytes, q->bytes, 3 * BATCH), 0);
+        memset(q->bytes, 0, 3 * (BATCH + 2));
+        render_kernels_of((enum isa)isa)->pack(q, &colours, BATCH, pixels);
+        picture_set_row(q, 1, 0, pixels, BATCH);
+        ck_assert_int_eq(memcmp(p->bytes, q->bytes, 3 * (BATCH + 2)), 0);
     }
     picture_free(p);
     picture_free(q);
@@ -478,7 +495,7 @@ Suite *kernels_suite(void)
     tcase_add_loop_test(c, modern_light_is_that_of_single_points, 0, 16);
     tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
     tcase_add_loop_test(c, points_lie_where_single_ones_do, 0, 60);
-    tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 2);
+    tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 60);
     tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
     tcase_add_test(c, instruction_sets_have_names);
     suite_add_tcase(s, c);
