@@ -1,6 +1,7 @@
 /* The schema, readable: `wrt doc`, `wrt doc sphere`, `wrt doc sphere.radius`, `wrt doc light.shape`
  * for what a light of any kind has, and `wrt doc radius` for what has such a property; names are
- * native or XML's.  Likewise the functions and statements of the native language. */
+ * native or XML's.  Likewise the functions and statements of the native language, and the params
+ * that options give. */
 #include "config.h"
 
 #include "cmd/commands.h"
@@ -239,7 +240,8 @@ static int answer(struct buffer *out, struct str name)
         signature_list_functions(out);
     else if (str_is(name, "statements"))
         signature_list_statements(out);
-    bool told = signature_describe_statement(out, name) || signature_describe_function(out, name);
+    bool told = signature_describe_statement(out, name) || signature_describe_function(out, name) ||
+                signature_describe_param(out, name);
     return told || out->n || add_properties(out, SCHEMA_GROUPS, name) ? 0
                                                                       : unknown_name(name, true);
 }

@@ -42,6 +42,15 @@ static bool same_type(const struct value *a, const struct value *b)
     return a->type == b->type || (value_is_numeric(a) && value_is_numeric(b));
 }
 
+/* What an option gives, such as --frames, is right: the scene's own value is not. */
+static void report_given(struct eval *e, const struct ast_node *param, const struct value *own,
+                         const struct value *given)
+{
+    diag_report(e->diag, DIAG_WRONG_TYPE, own->span,
+                "--frames makes the param '%.*s' %s, but it is %s", STR_ARG(param->name),
+                value_type_name(given), value_type_name(own));
+}
+
 /* A text that is no expression has no place but where it starts. */
 static void report_define(struct eval *e, const struct ast_node *param, const struct value *own,
                           const struct value *given)
@@ -65,7 +74,7 @@ static struct value eval_define(struct eval *e, size_t i, const struct ast_node 
     vec_push(&e->out->overridden, param->name_span);
     if (v.type == VALUE_ERROR || own->type == VALUE_ERROR || same_type(own, &v))
         return v;
-    report_define(e, param, own, &v);
+    (e->options->defines[i].optional ? report_given : report_define)(e, param, own, &v);
     return value_error(v.span);
 }
 

@@ -21,6 +21,18 @@ static const struct {
 };
 enum { STATEMENTS = sizeof statements / sizeof *statements };
 
+/* Params whose values options give. */
+static const struct {
+    const char *name, *written, *doc;
+} params[] = {
+    {"frame", "param frame = 0",
+     "the number of the frame that 'wrt render --frames A..B' is at; its own value otherwise"},
+    {"time", "param time = 0",
+     "the seconds from frame 0 to the one that 'wrt render --frames A..B' is at: its number over "
+     "--fps; its own value otherwise"},
+};
+enum { PARAMS = sizeof params / sizeof *params };
+
 const char *signature_type(char letter)
 {
     static const struct {
@@ -95,6 +107,16 @@ bool signature_describe_statement(struct buffer *out, struct str name)
     return i < STATEMENTS;
 }
 
+bool signature_describe_param(struct buffer *out, struct str name)
+{
+    int i = 0;
+    while (i < PARAMS && !str_is(name, params[i].name))
+        i++;
+    if (i < PARAMS)
+        buffer_printf(out, "%s: %s\n", params[i].written, params[i].doc);
+    return i < PARAMS;
+}
+
 void signature_list_functions(struct buffer *out)
 {
     buffer_puts(out, "functions:\n");
@@ -133,6 +155,8 @@ void signature_try_names(struct str_nearest *nearest)
         str_nearest_try(nearest, str_of(functions[i].name));
     for (int i = 0; i < STATEMENTS; i++)
         str_nearest_try(nearest, str_of(statements[i].name));
+    for (int i = 0; i < PARAMS; i++)
+        str_nearest_try(nearest, str_of(params[i].name));
 }
 
 void signature_manual(struct buffer *out)

@@ -29,6 +29,8 @@ bool signature_is_function(struct str name);
 /* All about the function, or the statement; false when there is none of this name. */
 bool signature_describe_function(struct buffer *out, struct str name);
 bool signature_describe_statement(struct buffer *out, struct str name);
+/* Likewise a param that an option gives its value. */
+bool signature_describe_param(struct buffer *out, struct str name);
 
 /* A line or two for each. */
 void signature_list_functions(struct buffer *out);

@@ -51,6 +51,11 @@ bool lint_is_spelt_out(struct str text);
 /* True in the file itself, not in one that it includes. */
 bool lint_is_here(const struct lint *l, struct span span);
 
+/* The statement or element of a surface that stands in the file for itself; NULL when a loop, a
+ * template, a group or a condition makes it, or something in it has an id, to which others may
+ * refer. */
+const struct ast_node *lint_surface_node(const struct lint *l, const struct desc_object *o);
+
 /* Proposes that the text goes away, and with it its line when nothing else stands there, the
  * comment behind it on that line, and comments before it that allow something in it.  Other
  * comments are left alone; with a comment that is lost it is no safe change. */

@@ -179,6 +179,35 @@ static struct span removal(const struct lint *l, const struct source *s, struct 
     return (struct span){span.begin, end};
 }
 
+/* Elements nest as deeply as they may. */
+static bool has_id(const struct ast_node *node)
+{
+    for (const struct ast_node *c = node->children; c; c = c->next)
+        if ((c->kind == AST_ATTRIBUTE && str_is(c->name, "id")) || has_id(c))
+            return true;
+    return false;
+}
+
+static const struct ast_node *named_at(const struct ast_node *first, struct span name)
+{
+    const struct ast_node *n = first;
+    while (n && n->name_span.begin != name.begin)
+        n = n->next;
+    return n;
+}
+
+const struct ast_node *lint_surface_node(const struct lint *l, const struct desc_object *o)
+{
+    const struct ast_node *first = l->ast->statements, *node = NULL;
+    if (o->frame || !first)
+        return NULL;
+    if (!l->ast->xml)
+        return named_at(first, o->span);
+    for (const struct ast_node *list = first->children; list && !node; list = list->next)
+        node = named_at(list->children, o->span);
+    return node && !has_id(node) ? node : NULL;
+}
+
 static bool loses_comment(const struct lint *l, struct span span)
 {
     const struct ast *ast = l->ast;

@@ -231,6 +231,9 @@ static void report_twin(struct twins *t, const struct desc_object *o,
              : "this %s is where another one is, of another material: which one shows is chance",
         kind);
     diag_label_made(e, earlier->span, earlier->frame, "the first is here");
+    const struct ast_node *node = same ? lint_surface_node(t->l, o) : NULL;
+    if (node)
+        lint_remove(t->l, e, node->span, DIAG_FIX_MAYBE);
 }
 
 static void compare_run(struct twins *t, const struct ranked *run, size_t n)
