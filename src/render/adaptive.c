@@ -199,10 +199,9 @@ static void render_until(struct frame *f)
     first_corners(f);
     first_errors(f);
     refine_tiles(f, INFINITY, order_tiles(f, -1));
-    for (double target = 1.0 / STEP;; target = fmax(target / STEP, wanted)) {
+    for (double target = 1; target > wanted && !frame_late(f, 0);) {
+        target = fmax(target / STEP, wanted);
         refine_tiles(f, target, order_tiles(f, target));
-        if (target <= wanted || frame_late(f, 0))
-            break;
     }
 }
 

@@ -71,28 +71,26 @@ static struct vec3 vec3_of(const struct colour *c)
     return vec3(c->r, c->g, c->b);
 }
 
-/* The middle that stands for one that is not known: that of its block in the finest stride. */
-static const struct colour *nearest_middle(const struct frame *f, uint32_t x, uint32_t y)
+struct vec3 first_nearby(const struct frame *f, uint32_t x, uint32_t y)
 {
     const struct colour *c = f->middle + frame_pixel(f, x, y);
     for (uint32_t stride = 2; !c->seen; stride *= 2)
         c = f->middle + frame_pixel(f, x & ~(stride - 1), y & ~(stride - 1));
-    return c;
+    return vec3_of(c);
 }
 
 bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first *first)
 {
     const struct colour *upper = f->corner + (size_t)y * (f->width + 1) + x;
     const struct colour *lower = upper + f->width + 1;
-    const struct colour *corner[4] = {lower, lower + 1, upper, upper + 1};
     const struct colour *middle = f->middle + frame_pixel(f, x, y);
-    bool all = middle->seen;
-    first->sample[4] = vec3_of(all ? middle : nearest_middle(f, x, y));
-    for (int i = 0; i < 4 && all; i++) {
-        first->sample[i] = vec3_of(corner[i]);
-        all = corner[i]->seen;
+    const struct colour *sample[CUBATURE_FIRST] = {lower, lower + 1, upper, upper + 1, middle};
+    for (int i = CUBATURE_FIRST - 1; i >= 0; i--) {
+        if (!sample[i]->seen)
+            return false;
+        first->sample[i] = vec3_of(sample[i]);
     }
-    return all;
+    return true;
 }
 
 struct estimate first_estimate(const struct frame *f, const struct first *first)

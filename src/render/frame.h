@@ -82,8 +82,10 @@ void first_errors(struct frame *f);
 struct first {
     struct vec3 sample[CUBATURE_FIRST];
 };
-/* false when they are not all known; the middle then is that of a pixel nearby. */
+/* false when they are not all known. */
 bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first *first);
+/* What stands for such a pixel: the middle of its block in the finest stride that is known. */
+struct vec3 first_nearby(const struct frame *f, uint32_t x, uint32_t y);
 struct estimate first_estimate(const struct frame *f, const struct first *first);
 
 /* ---- refine.c ---- */

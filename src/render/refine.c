@@ -163,7 +163,7 @@ static bool begin_pixel(struct frame *f, struct refiner *r, uint32_t x, uint32_t
         return true;
     f->error[pixel] = f->first_error[pixel];
     if (!first_of_pixel(f, x, y, &first)) {
-        set_pixel(f, x, y, first.sample[CUBATURE_FIRST - 1], 1);
+        set_pixel(f, x, y, first_nearby(f, x, y), 1);
         r->most = r->most > 1 ? r->most : 1;
         return false;
     }
