@@ -65,10 +65,11 @@ static int diff_scenes(struct diff_input inputs[2], const struct options *o)
     struct side sides[2] = {0};
     struct options loading = *o;
     int status = 0;
-    if (o->output || o->json || o->limited)
-        return usage_error("--%s is for two pictures", o->output ? "out"
-                                                       : o->json ? "json"
-                                                                 : "fail-above");
+    if (o->output || o->json || o->limited || !o->own_threads)
+        return usage_error("--%s is for two pictures", o->output    ? "out"
+                                                       : o->json    ? "json"
+                                                       : o->limited ? "fail-above"
+                                                                    : "threads");
     for (int i = 0; i < 2; i++) {
         loading.current = (size_t)i;
         status = status_worse(status, load(&sides[i], &inputs[i], &loading));

@@ -266,7 +266,10 @@ int command_doc(const struct options *o)
     struct question q = {.kind = {all.at, n}};
     if (point)
         q.prop = (struct str){point + 1, all.n - n - 1};
-    if (o->manual && str_is(all, "functions"))
+    if (o->manual && all.n && !str_is(all, "functions"))
+        status = usage_error("doc --man: the tables of all kinds, or of 'functions'; not of '%.*s'",
+                             STR_ARG(all));
+    else if (o->manual && all.n)
         signature_manual(&out);
     else if (o->manual)
         describe_manual(&out);

@@ -147,6 +147,8 @@ int diff_pictures(const struct diff_input inputs[2], const struct options *o)
     enum picture_format format = PICTURE_PNG;
     if (o->output && !picture_format_of(o->output, &format))
         return usage_error("--out: '%s' names no format; .png, .ppm and .pfm do", o->output);
+    if (o->defines.n > 0 || o->folders.n > 0)
+        return usage_error("--%s is for two scenes", o->defines.n > 0 ? "define" : "include");
     frontend_init(&c.frontend, o);
     bool loaded = load(&c);
     if (loaded)
