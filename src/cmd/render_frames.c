@@ -76,7 +76,8 @@ struct record {
 };
 
 struct frames {
-    char *list; /* path of the text */
+    char *list;         /* path of the text */
+    const char *unread; /* why that cannot be read; or NULL */
     VEC(struct record) records;
     struct cluster *cluster;
     uint32_t frame; /* under way */
@@ -84,13 +85,16 @@ struct frames {
     bool said;      /* what there is to say of the scene */
 };
 
-/* Lines that are not whole are left out. */
-static void read_list(struct frames *f)
+/* Lines that are not whole are left out.  NULL, or why it cannot be read although it is there. */
+static const char *read_list(struct frames *f)
 {
     char *text;
     size_t n;
-    if (file_read(f->list, &text, &n))
-        return;
+    if (access(f->list, F_OK) != 0 && errno == ENOENT)
+        return NULL;
+    const char *reason = file_read(f->list, &text, &n);
+    if (reason)
+        return reason;
     text[n] = 0;
     for (char *line = text, *end; (end = strchr(line, '\n')); line = end + 1) {
         struct record r;
@@ -104,6 +108,7 @@ static void read_list(struct frames *f)
         }
     }
     free(text);
+    return NULL;
 }
 
 /* What the text says of the frame under way, or NULL. */
@@ -124,16 +129,17 @@ static uint64_t check_of(const struct tilefile_head *h)
     return check;
 }
 
-/* The hash of the file; false when it cannot be read. */
-static bool hash_file(const char *path, uint64_t *out)
+/* The hash of the file; NULL, or why it cannot be read. */
+static const char *hash_file(const char *path, uint64_t *out)
 {
     char *bytes;
     size_t n;
-    if (file_read(path, &bytes, &n))
-        return false;
+    const char *reason = file_read(path, &bytes, &n);
+    if (reason)
+        return reason;
     *out = hash_of(bytes, n, 0);
     free(bytes);
-    return true;
+    return NULL;
 }
 
 bool render_frame_is_there(struct render_run *r)
@@ -141,7 +147,7 @@ bool render_frame_is_there(struct render_run *r)
     struct frames *f = r->frames;
     uint64_t check = check_of(&r->head), file;
     const struct record *last = find_record(f);
-    bool there = last && last->check == check && hash_file(r->output, &file) && file == last->file;
+    bool there = last && last->check == check && !hash_file(r->output, &file) && file == last->file;
     if (there && r->options->verbose)
         fprintf(stderr, "wrt: '%s' is there and stays\n", r->output);
     return there;
@@ -161,19 +167,21 @@ static bool to_older_line(const struct frames *f, int fd, const struct buffer *l
 const char *render_frame_record(struct render_run *r)
 {
     struct frames *f = r->frames;
+    uint64_t file;
+    const char *reason = hash_file(r->output, &file);
+    if (reason)
+        return reason;
+    int fd = open(f->list, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return strerror(errno);
     struct buffer line = {0};
-    uint64_t file = 0;
-    hash_file(r->output, &file);
     buffer_printf(&line, "frame %" PRIu32 " %016" PRIx64 " %016" PRIx64 "\n", f->frame,
                   check_of(&r->head), file);
-    int fd = open(f->list, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    const char *reason = fd < 0 ? strerror(errno) : NULL;
-    if (!reason && !to_older_line(f, fd, &line) && fcntl(fd, F_SETFL, O_APPEND) != 0)
+    if (!to_older_line(f, fd, &line) && fcntl(fd, F_SETFL, O_APPEND) != 0)
         reason = strerror(errno);
     if (!reason)
         reason = file_put(fd, line.at, line.n);
-    if (fd >= 0)
-        close(fd);
+    close(fd);
     buffer_free(&line);
     return reason;
 }
@@ -249,7 +257,7 @@ int render_frames(const struct options *o, const char *pattern, struct cluster *
     buffer_puts(&path, list);
     buffer_add(&path, ".txt", sizeof ".txt");
     f.list = path.at;
-    read_list(&f);
+    f.unread = read_list(&f);
     struct lower_files *files = lower_files_new();
     struct accel_store *trees = accel_store_new();
     int status = 0;
@@ -264,6 +272,12 @@ int render_frames(const struct options *o, const char *pattern, struct cluster *
     free(list);
     buffer_free(&path);
     return status;
+}
+
+const char *render_frames_unread(const struct render_run *r, const char **path)
+{
+    *path = r->frames ? r->frames->list : NULL;
+    return r->frames ? r->frames->unread : NULL;
 }
 
 bool render_frames_said(const struct render_run *r)

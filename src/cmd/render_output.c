@@ -123,6 +123,9 @@ int render_check_output(struct render_run *r)
     int status = check_names(r);
     if (status != 0)
         return status;
+    const char *list, *unread = render_frames_unread(r, &list);
+    if (unread)
+        return report_file(r, DIAG_CANNOT_READ, "could not read the list of frames", list, unread);
     const char *obstacle = output_obstacle(r->output);
     return obstacle ? report_output(r, r->output, obstacle) : 0;
 }

@@ -52,6 +52,9 @@ int render_frames(const struct options *o, const char *pattern, struct cluster *
 bool render_frame_is_there(struct render_run *r);
 /* Notes that it is; NULL or a reason. */
 const char *render_frame_record(struct render_run *r);
+/* Why the text of what is there cannot be read, and its path; NULL when it can, or there is none.
+ */
+const char *render_frames_unread(const struct render_run *r, const char **path);
 /* Whether findings of the scene have been told with a frame before. */
 bool render_frames_said(const struct render_run *r);
 /* Whether the scene has one of the params that frames set; true without frames. */
@@ -70,7 +73,8 @@ void render_fill_head(struct render_run *r);
 enum picture_depth render_depth(const struct render_run *r);
 /* The picture's format; told before any work is done.  0 or an exit status. */
 int render_choose_format(struct render_run *r);
-/* Whether the output's folder is there; 0 or an exit status. */
+/* Whether the output's folder is there, and what is there of frames can be read; 0 or an exit
+ * status. */
 int render_check_output(struct render_run *r);
 /* Opens the journal that was asked for; its tiles are in the picture then.  0 or an exit status. */
 int render_open_journal(struct render_run *r);

@@ -46,6 +46,7 @@ for i in range(2) { pair(i - 0.5) { translate: (0, i, 0) } }
 quad { vertices: [(-1, -1, 0), (-1, 1, 0), (1, 1, 0), (1, -1, 0)]  uvs: [(0, 0), (0, 1), (1, 1), (1, 0)]
   material: lambert { diffuse: 1  texture: u } }
 END
+    sed 's/^wrt 1$/&\nparam frame = 1/; s/radius: 0.3/radius: 0.3 + frame \/ 100/' scene.wrt >film.wrt
     cp "$1/scenes/sphere.xml" scene.xml
     sed -i 's/<xResolution>[^<]*/<xResolution>9/; s/<yResolution>[^<]*/<yResolution>7/' scene.xml
     printf 'let  unused = 1\nsphere   { center: (0,0,0)\nradius: 1 material: lambert{diffuse: 2} }\ncamera { eye: (0, 0, -4)  look_at: (0, 0, 0)  fov: 50  resolution: (9, 8) }\nlight point { position: 1 intensity: 0 }' >worn.wrt
@@ -54,5 +55,6 @@ END
     stage_session >session
     "$WRT" render scene.wrt -q --part 1/2 -o half.1
     "$WRT" render scene.wrt -q --part 2/2 -o half.2
+    "$WRT" render film.wrt -q --frames 1..2 -o kept-%d.png
     "$WRT" render scene.wrt -t 1 -q --checkpoint kept.journal -o /dev/full 2>/dev/null || [ -s kept.journal ]
 }
