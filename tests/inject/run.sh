@@ -136,7 +136,8 @@ while read -r name kinds command; do
     turn=$((turn + 1))
     attempt "$work/good" alloc:0 "$command"
     usual=$?
-    [ $usual -lt 2 ] || { echo "FAIL $name: exit status $usual undisturbed"; head -n 3 "$work/good.err"; failed=$((failed + 1)); }
+    # what is wrong from the start would try little
+    [ $usual = 0 ] || [[ $usual = 1 && $name == @(*-mistakes|diff-scenes) ]] || { echo "FAIL $name: exit status $usual undisturbed"; head -n 3 "$work/good.err"; failed=$((failed + 1)); }
     live=$(field "$work/good.log" live) place=0
     while read -r kind n; do
         place=$((place + 1))
