@@ -168,7 +168,7 @@ static bool called_as_scene(const char *word)
 static bool meant_as_argument(const struct given *g, const char *next)
 {
     if (g->opt == OPTS || !optional_argument(g->opt) || g->argument || !next || is_option(next) ||
-        access(next, F_OK) == 0 || called_as_scene(next))
+        strcmp(next, "-") == 0 || access(next, F_OK) == 0 || called_as_scene(next))
         return false;
     usage_error("'%s' is no file; what --%s takes stands behind '=': --%s=%s", next,
                 rows[g->opt].name, rows[g->opt].name, next);
