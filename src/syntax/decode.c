@@ -31,7 +31,10 @@ static bool starts_with(const char *text, size_t n, const char *prefix, size_t l
 static struct str declared_encoding(const char *text, size_t n)
 {
     static const char word[] = "encoding";
-    const char *end = starts_with(text, n, "<?xml", 5) ? memchr(text, '>', n) : NULL;
+    static const char start[] = "<?xml";
+    bool declares = starts_with(text, n, start, sizeof start - 1) && n > sizeof start - 1 &&
+                    strchr(" \t\r\n", text[sizeof start - 1]);
+    const char *end = declares ? memchr(text, '>', n) : NULL;
     const char *at = end ? memmem(text, (size_t)(end - text), word, sizeof word - 1) : NULL;
     if (!at)
         return (struct str){0};
