@@ -154,6 +154,16 @@ static void render(struct render_run *r)
     progress_end(&r->progress);
 }
 
+/* A tenth more than the time allowed is no matter. */
+static void tell_overrun(const struct run_stats *s, double allowed)
+{
+    if (s->total_s > 1.1 * allowed)
+        fprintf(stderr,
+                "wrt: warning: --time %g was too short: it took %.2g s, of which %.2g s were for "
+                "reading the scene and getting it ready\n",
+                allowed, s->total_s, s->parse_s + s->load_s + s->render.build_s);
+}
+
 /* Whether a signal left something undone; a picture in a limited time is never done. */
 static bool ended_early(const struct render_run *r)
 {
@@ -213,6 +223,8 @@ int render_picture(struct render_run *r)
         return 0;
     status = ended_early(r) ? render_save(r) : render_finish(r);
     r->stats.total_s = thread_seconds() - r->started;
+    if (r->options->time > 0 && !r->options->quiet && !interrupt_flag)
+        tell_overrun(&r->stats, r->options->time);
     if (status == 0)
         stats_print_render(&r->stats, r->options, &r->lowered.scene);
     return status;
