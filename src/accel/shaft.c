@@ -212,10 +212,15 @@ static bool add_wide(const struct accel *a, const struct shaft *s, struct target
     return true;
 }
 
+/* So few targets are tried without a tree. */
+enum { FEW_TARGETS = 8 };
+
 void shaft_list(const struct accel *a, const struct shaft *s, struct target_list *list)
 {
     list->n = 0;
-    if (a->wide)
+    if (a->target_count <= FEW_TARGETS)
+        list->usable = add_run(a, s, a->targets, a->target_count, list);
+    else if (a->wide)
         list->usable = add_wide(a, s, list);
     else if (a->nodes)
         list->usable = add_tree(a, s, list);

@@ -14,10 +14,8 @@ enum { BAR_WIDTH = 40 };
 void progress_begin(struct progress *p, bool quiet, unsigned long pixels)
 {
     double now = thread_seconds();
-    *p = (struct progress){.active = !quiet && isatty(STDERR_FILENO),
-                           .start = now,
-                           .last = now,
-                           .pixels = pixels};
+    *p = (struct progress){
+        .active = !quiet && isatty(STDERR_FILENO), .start = now, .last = now, .pixels = pixels};
 }
 
 static void print_time(double seconds)
@@ -32,8 +30,10 @@ static void print_time(double seconds)
 void progress_report(void *context, double done)
 {
     struct progress *p = context;
+    if (!p->active)
+        return;
     double now = thread_seconds(), spent = now - p->start;
-    if (!p->active || spent < FIRST_AFTER || now - p->last < REDRAW_AFTER || done <= 0)
+    if (spent < FIRST_AFTER || now - p->last < REDRAW_AFTER || done <= 0)
         return;
     p->last = now;
     p->shown = true;

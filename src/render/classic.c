@@ -44,36 +44,45 @@ static void add_refraction(struct level *level, const struct scene *scene,
         return;
     struct vec3 direction = vec3_scale(s.incoming, eta);
     direction = vec3_mad(direction, eta * c - sqrt(root), normal);
-    struct path *path = spawn_ray(&level->refracted, points, k, direction);
-    path->weight = weight;
-    path->parent = points->ray[k];
+    struct path *path = spawn_ray(&level->refracted, points, k, direction, weight);
     path->crossed = surface_crossed(scene, s.surface, inside);
     path->index = inside ? 1 : ior;
 }
 
-/* All points are of one surface, and each mirrors some light: false where that is not so. */
+/* to = x by; returns how many of them are 0. */
+static uint64_t scale_all(double *to, const double *x, double by, uint32_t n)
+{
+    uint64_t zeros = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        to[k] = x[k] * by;
+        zeros += to[k] == 0;
+    }
+    return zeros;
+}
+
+/* All points are of one surface, and each surely mirrors some light: false where that is not so. */
 static bool reflect_all(const struct worker *w, struct level *level)
 {
     const struct shade_batch *points = &w->points;
+    const struct vec3_batch *intensity = &w->light.intensity;
     const struct material *m = points->finish[0]->material;
-    struct ray_batch *rays = &level->reflected.rays;
-    bool none = !points->in_order || !points->one_surface || !vec3_is_zero(m->refraction);
-    for (uint32_t k = 0; k < points->n && !none; k++) {
-        struct path *path = &level->reflected.paths[k];
-        path->weight = vec3_mul(vec3_get(&w->light.intensity, k), m->reflection);
-        path->parent = k;
-        path->crossed = SURFACE_NONE;
-        path->index = 1;
-        none = vec3_is_zero(path->weight);
-    }
-    if (none)
+    struct offspring *o = &level->reflected;
+    if (!points->in_order || !points->one_surface || !vec3_is_zero(m->refraction))
         return false;
-    w->tracer->kernels->reflect(points, &rays->direction);
-    vec3_copy(&rays->origin, points->n, &points->p);
-    fill(rays->t_max, 0, points->n, RAY_UNBOUNDED);
+    uint64_t dark = scale_all(o->weight.x, intensity->x, m->reflection.x, points->n);
+    dark = scale_all(o->weight.y, intensity->y, m->reflection.y, points->n) && dark;
+    dark = scale_all(o->weight.z, intensity->z, m->reflection.z, points->n) && dark;
+    if (dark)
+        return false;
     for (uint32_t k = 0; k < points->n; k++)
-        rays->from[k] = points->prim[k];
-    rays->n = points->n;
+        o->parent[k] = k;
+    for (uint32_t k = 0; k < points->n; k++)
+        o->rays.from[k] = points->prim[k];
+    w->tracer->kernels->reflect(points, &o->rays.direction);
+    vec3_copy(&o->rays.origin, points->n, &points->p);
+    fill(o->rays.t_max, 0, points->n, RAY_UNBOUNDED);
+    o->rays.n = points->n;
+    o->in_order = true;
     return true;
 }
 
@@ -88,22 +97,16 @@ static void classic_spawn(struct worker *w, struct level *level, const struct pa
     w->tracer->kernels->reflect(points, &mirrored);
     for (uint32_t k = 0; k < points->n; k++) {
         const struct material *m = points->finish[k]->material;
-        uint32_t ray = points->ray[k];
         if (!points->finish[k]->bounces)
             continue;
         struct vec3 intensity = vec3_get(&w->light.intensity, k);
         struct vec3 reflected = vec3_mul(intensity, m->reflection);
         struct vec3 refracted = vec3_mul(intensity, m->refraction);
-        if (!vec3_is_zero(reflected)) {
-            struct path *path = spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k));
-            path->weight = reflected;
-            path->parent = ray;
-            path->crossed = SURFACE_NONE;
-            path->index = 1;
-        }
+        if (!vec3_is_zero(reflected))
+            spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k), reflected);
         if (!vec3_is_zero(refracted))
-            add_refraction(level, w->tracer->scene, points, k, paths ? paths[ray].index : 1,
-                           refracted);
+            add_refraction(level, w->tracer->scene, points, k,
+                           paths ? paths[points->ray[k]].index : 1, refracted);
     }
 }
 

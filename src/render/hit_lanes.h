@@ -25,41 +25,57 @@ static inline struct vvec3 places_along(const struct shade_batch *points, uint32
     return v3_mad(from, v_load(points->t + i), v3_load(&points->incoming, i));
 }
 
-static void sphere_points(const struct geometry *g, const struct hit_shapes *h, uint32_t i,
-                          uint32_t end, struct shade_batch *points)
+struct vsphere {
+    struct vvec3 center;
+    vreal radius;
+};
+
+static inline struct vsphere spheres_at(const struct geometry *g, vint at)
 {
     const struct sphere *all = g->spheres.at;
-    vint at = shapes_at(h, i, end);
-    struct vvec3 center = v3_gather(&all->center, at, STEP_OF(struct sphere));
-    vreal radius = v_gather(&all->radius, at * STEP_OF(struct sphere));
-    struct vvec3 normal = places_along(points, i, v3_sub(v3_load(h->origin, i), center));
-    normal = v3_normalize(normal);
-    v3_store(&points->normal, i, normal);
-    v3_store(&points->p, i, v3_mad(center, radius, normal));
+    return (struct vsphere){v3_gather(&all->center, at, STEP_OF(struct sphere)),
+                            v_gather(&all->radius, at * STEP_OF(struct sphere))};
 }
 
-static void cylinder_points(const struct geometry *g, const struct hit_shapes *h, uint32_t i,
-                            uint32_t end, struct shade_batch *points)
+static inline void sphere_points(const struct vsphere *s, const struct hit_shapes *h, uint32_t i,
+                                 struct shade_batch *points)
+{
+    struct vvec3 normal = places_along(points, i, v3_sub(v3_load(h->origin, i), s->center));
+    normal = v3_normalize(normal);
+    v3_store(&points->normal, i, normal);
+    v3_store(&points->p, i, v3_mad(s->center, s->radius, normal));
+}
+
+struct vcylinder {
+    struct vvec3 base, axis;
+    vreal height, radius;
+};
+
+static inline struct vcylinder cylinders_at(const struct geometry *g, vint at)
 {
     const struct cylinder *all = g->cylinders.at;
-    vint at = shapes_at(h, i, end);
-    struct vvec3 base = v3_gather(&all->base, at, STEP_OF(struct cylinder));
-    struct vvec3 axis = v3_gather(&all->axis, at, STEP_OF(struct cylinder));
-    vreal height = v_gather(&all->height, at * STEP_OF(struct cylinder));
-    vreal radius = v_gather(&all->radius, at * STEP_OF(struct cylinder));
+    return (struct vcylinder){v3_gather(&all->base, at, STEP_OF(struct cylinder)),
+                              v3_gather(&all->axis, at, STEP_OF(struct cylinder)),
+                              v_gather(&all->height, at * STEP_OF(struct cylinder)),
+                              v_gather(&all->radius, at * STEP_OF(struct cylinder))};
+}
+
+static inline void cylinder_points(const struct vcylinder *c, const struct hit_shapes *h,
+                                   uint32_t i, struct shade_batch *points)
+{
     vreal zero = v_all(0), part = v_load(h->part + i);
     vmask side = v_equal(part, v_all(CYLINDER_SIDE)), top = v_equal(part, v_all(CYLINDER_TOP));
-    struct vvec3 p = places_along(points, i, v3_sub(v3_load(h->origin, i), base));
-    vreal z = v3_dot(p, axis);
-    struct vvec3 across = v3_mad(p, -z, axis);
+    struct vvec3 p = places_along(points, i, v3_sub(v3_load(h->origin, i), c->base));
+    vreal z = v3_dot(p, c->axis);
+    struct vvec3 across = v3_mad(p, -z, c->axis);
     vreal length = v_sqrt(v3_dot(across, across));
     struct vvec3 outwards = v3_scale(across, 1 / length);
-    across = v3_select(side | v_less(radius, length), v3_scale(outwards, radius), across);
+    across = v3_select(side | v_less(c->radius, length), v3_scale(outwards, c->radius), across);
     vmask low = v_equal(part, v_all(CYLINDER_BASE)) | v_less(z, zero);
-    z = v_select(low, zero, v_select(top | v_less(height, z), height, z));
-    struct vvec3 cap = v3_select(top, axis, v3_neg(axis));
+    z = v_select(low, zero, v_select(top | v_less(c->height, z), c->height, z));
+    struct vvec3 cap = v3_select(top, c->axis, v3_neg(c->axis));
     v3_store(&points->normal, i, v3_select(side, outwards, cap));
-    v3_store(&points->p, i, v3_add(base, v3_mad(across, z, axis)));
+    v3_store(&points->p, i, v3_add(c->base, v3_mad(across, z, c->axis)));
 }
 
 /* ---- triangles ------------------------------------------------------------------------------- */
@@ -272,6 +288,8 @@ static inline void triangle_points(const struct scene *scene, const struct hit_s
         bend_lanes(scene, t, i, end, points);
 }
 
+/* ---- all of them ----------------------------------------------------------------------------- */
+
 static bool one_shape(const struct hit_shapes *h, uint32_t first, uint32_t end)
 {
     uint32_t differing = 0;
@@ -280,30 +298,58 @@ static bool one_shape(const struct hit_shapes *h, uint32_t first, uint32_t end)
     return differing == 0;
 }
 
-/* ---- all of them ----------------------------------------------------------------------------- */
+/* What all points of a kind lie on is read once.  The last vector reaches into the next kind's
+ * points, which come later. */
+static void points_on_spheres(const struct geometry *g, const struct hit_shapes *h,
+                              struct shade_batch *points)
+{
+    uint32_t first = h->first[PRIM_SPHERE], end = h->first[PRIM_SPHERE + 1];
+    bool same = one_shape(h, first, end);
+    struct vsphere s;
+    for (uint32_t i = first; i < end; i += LANES) {
+        if (!same || i == first)
+            s = spheres_at(g, shapes_at(h, i, end));
+        sphere_points(&s, h, i, points);
+    }
+}
 
-/* The last vector of a kind reaches into the next kind's points, which come later. */
-static void hit_points(const struct scene *scene, const struct hit_shapes *h,
-                       struct shade_batch *points)
+static void points_on_cylinders(const struct geometry *g, const struct hit_shapes *h,
+                                struct shade_batch *points)
+{
+    uint32_t first = h->first[PRIM_CYLINDER], end = h->first[PRIM_CYLINDER + 1];
+    bool same = one_shape(h, first, end);
+    struct vcylinder c;
+    for (uint32_t i = first; i < end; i += LANES) {
+        if (!same || i == first)
+            c = cylinders_at(g, shapes_at(h, i, end));
+        cylinder_points(&c, h, i, points);
+    }
+}
+
+static void points_on_triangles(const struct scene *scene, const struct hit_shapes *h,
+                                struct shade_batch *points)
 {
     const struct geometry *g = &scene->geometry;
-    const uint32_t *first = h->first;
-    for (uint32_t i = first[PRIM_SPHERE]; i < first[PRIM_SPHERE + 1]; i += LANES)
-        sphere_points(g, h, i, first[PRIM_SPHERE + 1], points);
-    for (uint32_t i = first[PRIM_CYLINDER]; i < first[PRIM_CYLINDER + 1]; i += LANES)
-        cylinder_points(g, h, i, first[PRIM_CYLINDER + 1], points);
-    for (uint32_t i = 0; i < first[PRIM_TRIANGLE] && points->curved; i += LANES) {
-        v3_store(&points->geometric, i, v3_load(&points->normal, i));
-        v3_store(&points->lifted, i, v3_load(&points->p, i));
-    }
-    uint32_t i = first[PRIM_TRIANGLE], end = first[PRIM_TRIANGLE + 1];
-    bool same = one_shape(h, i, end);
+    uint32_t first = h->first[PRIM_TRIANGLE], end = h->first[PRIM_TRIANGLE + 1];
+    bool same = one_shape(h, first, end);
     struct vtriangle t;
-    for (; i < end; i += LANES) {
-        if (!same || i == first[PRIM_TRIANGLE])
+    for (uint32_t i = first; i < end; i += LANES) {
+        if (!same || i == first)
             t = triangles_at(g, shapes_at(h, i, end));
         triangle_points(scene, h, &t, i, end, points);
     }
-    for (i = first[PRIM_INSTANCE]; i < first[PRIM_INSTANCE + 1]; i++)
+}
+
+static void hit_points(const struct scene *scene, const struct hit_shapes *h,
+                       struct shade_batch *points)
+{
+    points_on_spheres(&scene->geometry, h, points);
+    points_on_cylinders(&scene->geometry, h, points);
+    for (uint32_t i = 0; i < h->first[PRIM_TRIANGLE] && points->curved; i += LANES) {
+        v3_store(&points->geometric, i, v3_load(&points->normal, i));
+        v3_store(&points->lifted, i, v3_load(&points->p, i));
+    }
+    points_on_triangles(scene, h, points);
+    for (uint32_t i = h->first[PRIM_INSTANCE]; i < h->first[PRIM_INSTANCE + 1]; i++)
         place_point(scene, h, i, points);
 }

@@ -6,17 +6,32 @@
 #include "render/hit_lanes.h"
 #include "render/sight_lanes.h"
 
+/* across: as far as the ray's column is. */
+static inline struct vvec3 direction_at(const struct lens *lens, struct vvec3 across, vreal y)
+{
+    struct vvec3 d = v3_mad(across, y, v3_all(lens->upwards));
+    d = v3_add(d, v3_all(lens->ahead));
+    if (lens->mirrored)
+        d.z = -d.z;
+    return v3_normalize(d);
+}
+
 static void aim(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions)
 {
-    struct vvec3 across = v3_all(lens->across), upwards = v3_all(lens->upwards);
-    for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 d = v3_mad(v3_scale(across, v_load(x + i)), v_load(y + i), upwards);
-        d = v3_add(d, v3_all(lens->ahead));
-        if (lens->mirrored)
-            d.z = -d.z;
-        v3_store(directions, i, v3_normalize(d));
-    }
+    struct vvec3 across = v3_all(lens->across);
+    for (uint32_t i = 0; i < n; i += LANES)
+        v3_store(directions, i, direction_at(lens, v3_scale(across, v_load(x + i)), v_load(y + i)));
+}
+
+static void aim_grid(const struct lens *lens, const double *x, uint32_t width, const double *y,
+                     uint32_t height, struct vec3_batch *directions)
+{
+    for (uint32_t row = 0; row < height; row++)
+        for (uint32_t i = 0; i < width; i += LANES)
+            v3_store(
+                directions, row * width + i,
+                direction_at(lens, v3_scale(v3_all(lens->across), v_load(x + i)), v_all(y[row])));
 }
 
 static void fill_vectors(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value)
@@ -262,25 +277,17 @@ static void reflect(const struct shade_batch *points, struct vec3_batch *directi
     }
 }
 
-static double least_lane(vreal a)
-{
-    double least = a[0];
-    for (int k = 1; k < LANES; k++)
-        least = a[k] < least ? a[k] : least;
-    return least;
-}
-
 /* The last vector ends at the last element, over what another has seen. */
 static void bounds_along(const double *x, uint32_t n, double *least, double *most)
 {
-    vreal lo = v_load(x), hi = lo;
-    for (uint32_t i = LANES; i < n; i += LANES) {
+    vreal lo = v_all(INFINITY), hi = v_all(-INFINITY);
+    for (uint32_t i = 0; i < n; i += LANES) {
         vreal next = v_load(x + (i + LANES <= n ? i : n - LANES));
         lo = v_min(next, lo);
         hi = v_max(next, hi);
     }
-    *least = least_lane(lo);
-    *most = -least_lane(-hi);
+    *least = v_least(lo);
+    *most = v_most(hi);
 }
 
 static struct box bounds(const struct vec3_batch *points, uint32_t n)
@@ -334,6 +341,7 @@ static void pack(const struct picture *out, const struct vec3_batch *colours, ui
 
 const struct render_kernels RENDER_KERNELS = {
     .aim = aim,
+    .aim_grid = aim_grid,
     .fill = fill_vectors,
     .hit_points = hit_points,
     .texels = texels,

@@ -10,6 +10,13 @@ static void aim(const struct lens *lens, const double *x, const double *y, uint3
         vec3_put(directions, i, lens_direction(lens, x[i], y[i]));
 }
 
+static void aim_grid(const struct lens *lens, const double *x, uint32_t width, const double *y,
+                     uint32_t height, struct vec3_batch *directions)
+{
+    for (uint32_t i = 0; i < width * height; i++)
+        vec3_put(directions, i, lens_direction(lens, x[i % width], y[i / width]));
+}
+
 void place_point(const struct scene *scene, const struct hit_shapes *shapes, uint32_t k,
                  struct shade_batch *points)
 {
@@ -165,6 +172,7 @@ static void see(const struct geometry *g, const struct lamp *lamp, uint32_t opaq
 
 const struct render_kernels render_plain = {
     .aim = aim,
+    .aim_grid = aim_grid,
     .fill = vec3_fill,
     .hit_points = hit_points,
     .texels = texels,

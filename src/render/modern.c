@@ -282,23 +282,19 @@ static void spawn_from(struct worker *w, struct level *level, const struct path 
     const struct scene *scene = w->tracer->scene;
     struct seen_point p = seen_point_get(&w->points, k);
     const struct material *m = p.s.finish->material;
-    uint32_t ray = w->points.ray[k];
-    const struct media *media = paths ? &paths[ray].media : &outside;
+    const struct media *media = paths ? &paths[w->points.ray[k]].media : &outside;
     struct vec3 reflection = m->reflection, direction;
     if (!vec3_is_zero(m->refraction)) {
         bool entering = vec3_dot(vec3_get(geometric_normals(&w->points), k), p.s.incoming) < 0;
-        struct path path = {.weight = m->refraction,
-                            .parent = ray,
-                            .media = media_beyond(media, p.s.surface, entering)};
+        struct path path = {.media = media_beyond(media, p.s.surface, entering)};
         double before = entering || media->n > 0 ? index_inside(scene, media) : m->ior;
         if (refracted(&p, before / index_inside(scene, &path.media), &direction))
-            *spawn_ray(&level->refracted, &w->points, k, direction) = path;
+            *spawn_ray(&level->refracted, &w->points, k, direction, m->refraction) = path;
         else
             reflection = vec3_add(reflection, m->refraction);
     }
-    struct path path = {.weight = reflection, .parent = ray, .media = *media};
     if (!vec3_is_zero(reflection))
-        *spawn_ray(&level->reflected, &w->points, k, mirrored(&p)) = path;
+        spawn_ray(&level->reflected, &w->points, k, mirrored(&p), reflection)->media = *media;
 }
 
 static void modern_spawn(struct worker *w, struct level *level, const struct path *paths)

@@ -127,28 +127,28 @@ static void note_hit(const struct worker *w, struct probe_ray *r)
 }
 
 static struct probe_ray *probe_ray(struct probe *p, uint32_t depth, const struct ray_batch *rays,
-                                   const struct path *path, enum probe_way way);
+                                   const struct path *path, struct vec3 weight, enum probe_way way);
 
 static struct probe_ray *probe_offspring(struct probe *p, uint32_t depth, const struct offspring *o,
                                          enum probe_way way, struct vec3 *colour)
 {
     if (o->rays.n == 0)
         return NULL;
-    struct probe_ray *r = probe_ray(p, depth + 1, &o->rays, o->paths, way);
+    struct probe_ray *r = probe_ray(p, depth + 1, &o->rays, o->paths, vec3_get(&o->weight, 0), way);
     *colour = vec3_add(*colour, vec3_mul(r->weight, r->colour));
     return r;
 }
 
 /* As trace_batch, for one ray, as deep. */
 static struct probe_ray *probe_ray(struct probe *p, uint32_t depth, const struct ray_batch *rays,
-                                   const struct path *path, enum probe_way way)
+                                   const struct path *path, struct vec3 weight, enum probe_way way)
 {
     struct worker *w = p->worker;
     const struct tracer *t = w->tracer;
     struct level *level = level_at(w, depth);
     struct probe_ray *r = arena_zalloc(p->arena, 1, sizeof *r);
     r->way = way;
-    r->weight = path ? path->weight : vec3_all(1);
+    r->weight = weight;
     r->origin = vec3_get(&rays->origin, 0);
     r->direction = vec3_get(&rays->direction, 0);
     r->without = r->colour = t->scene->background;
@@ -174,7 +174,7 @@ const struct probe_ray *probe_pixel(const struct scene *scene, const struct rend
     struct tile tile = {x, y, x + 1, y + 1};
     struct sample sample = sample_at(&tracer, 0, 0, 1);
     const struct ray_batch *rays = camera_rays(p.worker, &tile, &sample);
-    const struct probe_ray *r = probe_ray(&p, 0, rays, NULL, PROBE_CAMERA);
+    const struct probe_ray *r = probe_ray(&p, 0, rays, NULL, vec3_all(1), PROBE_CAMERA);
     worker_free(p.worker);
     tracer_free(&tracer);
     return r;

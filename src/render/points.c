@@ -53,7 +53,9 @@ static uint64_t meet_crossed_surfaces(struct worker *w, const struct ray_batch *
                                       const struct path *paths)
 {
     uint64_t inside = 0;
-    for (uint32_t i = 0; i < rays->n && paths && !w->tracer->modern; i++) {
+    if (!paths || w->tracer->modern || !w->tracer->any_refractive)
+        return 0;
+    for (uint32_t i = 0; i < rays->n; i++) {
         struct hit hit;
         if (paths[i].crossed == SURFACE_NONE ||
             !hits_crossed_surface(w->tracer, ray_get(rays, i), paths[i].crossed, &hit))

@@ -63,7 +63,10 @@ static void move_ray(struct offspring *o, uint32_t to, uint32_t from)
     vec3_put(&o->rays.direction, to, vec3_get(&o->rays.direction, from));
     o->rays.t_max[to] = o->rays.t_max[from];
     o->rays.from[to] = o->rays.from[from];
+    vec3_put(&o->weight, to, vec3_get(&o->weight, from));
+    o->parent[to] = o->parent[from];
     o->paths[to] = o->paths[from];
+    o->in_order = false;
 }
 
 void prune(struct worker *w, uint32_t depth, struct offspring *o, const struct path *paths)
@@ -72,7 +75,9 @@ void prune(struct worker *w, uint32_t depth, struct offspring *o, const struct p
     uint32_t n = 0;
     for (uint32_t i = 0; i < o->rays.n; i++) {
         struct path *path = &o->paths[i];
-        path->total = paths ? vec3_mul(path->weight, paths[path->parent].total) : path->weight;
+        path->total = vec3_get(&o->weight, i);
+        if (paths)
+            path->total = vec3_mul(path->total, paths[o->parent[i]].total);
         if (vec3_largest(vec3_mul(path->total, most)) < PRUNE_BELOW)
             continue;
         if (n < i)

@@ -195,8 +195,10 @@ void tracer_init(struct tracer *t, const struct scene *scene, const struct rende
                   tracer_skips(t, SKIP_DUPLICATE));
     t->dark = note_dark_lamps(t);
     t->finishes = mem_alloc(scene->materials.n, sizeof *t->finishes);
-    for (size_t i = 0; i < scene->materials.n; i++)
+    for (size_t i = 0; i < scene->materials.n; i++) {
         t->finishes[i] = finish_of(&scene->materials.at[i]);
+        t->any_refractive |= !vec3_is_zero(scene->materials.at[i].refraction);
+    }
     t->emissive = mem_alloc(scene->surfaces.n, sizeof *t->emissive);
     for (size_t i = 0; i < scene->surfaces.n; i++) {
         const struct material *m = &scene->materials.at[scene->surfaces.at[i].material];

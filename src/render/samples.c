@@ -109,25 +109,44 @@ static void look(struct worker *w, const struct tile *tile)
     ahead->y = tile->y1;
 }
 
+/* Those through columns x of rows y of the tile, or jittered. */
+static void rays_one_by_one(struct worker *w, const struct tile *tile, const struct sample *sample,
+                            const double *columns, const double *rows)
+{
+    const struct tracer *t = w->tracer;
+    double x[BATCH_ROOM], y[BATCH_ROOM];
+    uint32_t n = 0;
+    for (uint32_t row = tile->y0; row < tile->y1; row++) {
+        for (uint32_t column = tile->x0; column < tile->x1; column++, n++) {
+            x[n] = columns[column - tile->x0];
+            y[n] = rows[row - tile->y0];
+            if (t->options->jitter)
+                jitter(t, column, t->options->height - 1 - row, sample, &x[n], &y[n]);
+        }
+    }
+    rays_through(w, x, y, n);
+}
+
 const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
                                     const struct sample *sample)
 {
     const struct tracer *t = w->tracer;
     const struct render_options *o = t->options;
     const struct camera *camera = &t->scene->camera;
-    double x[BATCH_ROOM], y[BATCH_ROOM], columns[TILE], rows[TILE];
-    uint32_t width = tile->x1 - tile->x0, height = tile->y1 - tile->y0, n = 0;
+    double columns[BATCH_ROOM] = {0}, rows[TILE], upwards[TILE];
+    uint32_t width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
     camera_places(camera, tile->x0, width, sample->x, o->width, columns);
-    camera_places(camera, o->height - tile->y1, height, sample->y, o->height, rows);
-    for (uint32_t j = height; j-- > 0; n += width) {
-        memcpy(x + n, columns, width * sizeof *columns);
-        fill(y, n, n + width, rows[j]);
-        for (uint32_t i = 0; i < width && o->jitter; i++)
-            jitter(t, tile->x0 + i, o->height - tile->y1 + j, sample, &x[n + i], &y[n + i]);
+    camera_places(camera, o->height - tile->y1, height, sample->y, o->height, upwards);
+    for (uint32_t j = 0; j < height; j++)
+        rows[j] = upwards[height - 1 - j];
+    if (o->jitter || t->lens.parallel) {
+        rays_one_by_one(w, tile, sample, columns, rows);
+    } else {
+        t->kernels->aim_grid(&t->lens, columns, width, rows, height, &w->camera_rays.direction);
+        w->camera_rays.n = width * height;
     }
-    const struct ray_batch *rays = rays_through(w, x, y, n);
     look(w, tile);
-    return rays;
+    return &w->camera_rays;
 }
 
 /* A worker whose camera rays lack nothing but their directions, or origins where they are parallel.

@@ -25,6 +25,8 @@ static struct level *level_new(void)
     struct level *level = mem_alloc_aligned(1, sizeof *level);
     memset(level, 0, sizeof *level);
     level->reflected.rays.spawned = level->refracted.rays.spawned = true;
+    for (uint32_t i = 0; i < BATCH; i++) /* classic: so are all mirrored rays */
+        level->reflected.paths[i] = (struct path){.crossed = SURFACE_NONE, .index = 1};
     return level;
 }
 
@@ -37,6 +39,12 @@ struct level *level_at(struct worker *w, uint32_t depth)
     return level;
 }
 
+static void add_shares(double *sums, const double *weights, const double *x, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++)
+        sums[i] += weights[i] * x[i];
+}
+
 /* Traces the rays and adds their share to their parents' colours. */
 static void trace_offspring(struct worker *w, struct level *level, uint32_t depth,
                             const struct offspring *o, struct vec3_batch *colours)
@@ -44,10 +52,15 @@ static void trace_offspring(struct worker *w, struct level *level, uint32_t dept
     if (o->rays.n == 0)
         return;
     trace_batch(w, depth + 1, &o->rays, o->paths, &level->colours);
+    if (o->in_order) {
+        add_shares(colours->x, o->weight.x, level->colours.x, o->rays.n);
+        add_shares(colours->y, o->weight.y, level->colours.y, o->rays.n);
+        add_shares(colours->z, o->weight.z, level->colours.z, o->rays.n);
+        return;
+    }
     for (uint32_t i = 0; i < o->rays.n; i++) {
-        const struct path *path = &o->paths[i];
-        struct vec3 share = vec3_mul(path->weight, vec3_get(&level->colours, i));
-        vec3_put(colours, path->parent, vec3_add(vec3_get(colours, path->parent), share));
+        struct vec3 share = vec3_mul(vec3_get(&o->weight, i), vec3_get(&level->colours, i));
+        vec3_put(colours, o->parent[i], vec3_add(vec3_get(colours, o->parent[i]), share));
     }
 }
 

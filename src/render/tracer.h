@@ -94,6 +94,7 @@ struct tracer {
     struct finish *finishes; /* one a material */
     bool *emissive;          /* by surface: it does not block light */
     bool any_emissive;
+    bool any_refractive;
     struct vec3 *most; /* that can come back along a ray, by how much deeper others go; or NULL */
     uint32_t twins, dark; /* primitives and lights that are left out for that */
     uint32_t skips;       /* bit k: skip k is on; 0: nothing clever is done at all */
@@ -115,9 +116,7 @@ struct media {
 
 /* Where a ray comes from. */
 struct path {
-    struct vec3 weight; /* of its colour in its parent's */
-    struct vec3 total;  /* in its pixel's, where tracer.most is there */
-    uint32_t parent;    /* place in its batch of the ray that gave rise to it */
+    struct vec3 total; /* weight of its colour in its pixel's, where tracer.most is there */
     union {
         struct {              /* classic */
             uint32_t crossed; /* surface it was refracted at and meets first, or SURFACE_NONE */
@@ -234,6 +233,10 @@ struct render_kernels {
      * ones. */
     void (*aim)(const struct lens *lens, const double *x, const double *y, uint32_t n,
                 struct vec3_batch *directions);
+    /* The same of all columns x of all rows y, row by row; elements up to the next whole vector may
+     * be filled, too. */
+    void (*aim_grid)(const struct lens *lens, const double *x, uint32_t width, const double *y,
+                     uint32_t height, struct vec3_batch *directions);
     /* As vec3_fill, but elements up to the next whole vector may be filled, too. */
     void (*fill)(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value);
     /* Fills in p and normal of the points; b1 and b2, where shapes->weighted; geometric and lifted,
@@ -280,6 +283,9 @@ extern const struct render_kernels render_plain, render_generic, render_avx2, re
 /* Rays of the next depth. */
 struct offspring {
     struct ray_batch rays;
+    struct vec3_batch weight; /* of their colours in their parents' */
+    uint32_t parent[BATCH];   /* place in its batch of the ray that gave rise to it */
+    bool in_order;            /* ray k's is ray k */
     struct path paths[BATCH];
 };
 
@@ -370,9 +376,12 @@ const struct render_kernels *render_kernels_of(enum isa isa);
 
 /* Adds a ray that starts at point k; the caller fills in its path. */
 static inline struct path *spawn_ray(struct offspring *o, const struct shade_batch *points,
-                                     uint32_t k, struct vec3 direction)
+                                     uint32_t k, struct vec3 direction, struct vec3 weight)
 {
     uint32_t i = o->rays.n++;
+    vec3_put(&o->weight, i, weight);
+    o->parent[i] = points->ray[k];
+    o->in_order = false;
     vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
     vec3_put(&o->rays.direction, i, direction);
     o->rays.t_max[i] = RAY_UNBOUNDED;

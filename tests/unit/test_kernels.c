@@ -180,7 +180,7 @@ START_TEST(bounds_hold_all_points)
 {
     struct vec3_batch points;
     for (uint32_t i = 0; i < BATCH_ROOM; i++)
-        vec3_put(&points, i, random_vec3(1, i, 0));
+        vec3_put(&points, i, i % 9 == 4 ? vec3(NAN, i, NAN) : random_vec3(1, i, 0));
     for (uint32_t n = 1; n <= BATCH; n++) {
         struct box expected = render_plain.bounds(&points, n);
         for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
@@ -450,6 +450,34 @@ START_TEST(packed_pixels_are_those_of_single_colours)
 }
 END_TEST
 
+START_TEST(rays_through_a_grid_are_those_of_single_places)
+{
+    struct lens lens = {.ahead = random_vec3(1, 0, 0),
+                        .across = random_vec3(1, 1, 0),
+                        .upwards = random_vec3(1, 2, 0),
+                        .mirrored = _i % 2};
+    uint32_t width = 1 + (uint32_t)_i % 8, height = 1 + (uint32_t)_i / 8;
+    double x[BATCH_ROOM], y[BATCH_ROOM], columns[BATCH_ROOM], rows[BATCH_ROOM];
+    struct vec3_batch expected, directions;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++) {
+        columns[i] = random_at(2, i, 0);
+        rows[i] = random_at(3, i, 0);
+        x[i] = random_at(2, i % width, 0);
+        y[i] = random_at(3, i / width, 0);
+    }
+    render_plain.aim(&lens, x, y, width * height, &expected);
+    for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        const struct render_kernels *kernels = render_kernels_of((enum isa)isa);
+        kernels->aim_grid(&lens, columns, width, rows, height, &directions);
+        check_same_vectors(&directions, &expected, width * height);
+        kernels->aim(&lens, x, y, width * height, &directions);
+        check_same_vectors(&directions, &expected, width * height);
+    }
+}
+END_TEST
+
 START_TEST(rays_to_lights_are_those_of_single_points)
 {
     struct light light = {.kind = _i ? LIGHT_SUN : LIGHT_POINT, .position = random_vec3(5, 0, 0)};
@@ -496,6 +524,7 @@ Suite *kernels_suite(void)
     tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
     tcase_add_loop_test(c, points_lie_where_single_ones_do, 0, 60);
     tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 60);
+    tcase_add_loop_test(c, rays_through_a_grid_are_those_of_single_places, 0, 64);
     tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
     tcase_add_test(c, instruction_sets_have_names);
     suite_add_tcase(s, c);
