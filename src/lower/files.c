@@ -157,10 +157,12 @@ uint32_t lower_texture(struct lowering *l, const struct desc_object *o, bool dat
     if (!o)
         return TEXTURE_NONE;
     uint32_t *number = &(data && modern ? l->data_of : l->texture_of)[o->number];
+    uint32_t twin = (data && modern ? l->texture_of : l->data_of)[o->number]; /* the same file */
     if (*number != TEXTURE_NONE)
         return *number;
     const struct desc_value *file = desc_get(o, PROP_FILE);
-    struct texture t = {.image = load_image(l, file),
+    struct texture t = {.image = twin == TEXTURE_NONE ? load_image(l, file)
+                                                      : l->scene->textures.at[twin].image,
                         .file = lower_path_of(l, file),
                         .linear = desc_word(o, PROP_FILTER) == 1,
                         .centred = modern};
