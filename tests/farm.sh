@@ -100,6 +100,8 @@ ended '% of the part; nothing of it was kept' "$scene" "${slow[@]}" --part 1/2 -
 ended "% of the part; --checkpoint 'journal' --resume goes on" "$scene" "${slow[@]}" --part 1/2 --checkpoint journal
 ended "before the time was over; the picture so far is in 'timed.partial.png'" "$scene" --time 60 -o timed.png
 ended "'film-0001.partial.png'; --checkpoint 'film-%d' --resume goes on" film.wrt "${slow[@]}" --frames 1..2 --checkpoint film-%d
+"$wrt" film.wrt -q --res 8x6 --frames 1..1 && [ ! -e film-0001.partial.png ] ||
+    complain "the frame so far is still there"
 rm -f film* journal timed* part
 
 # A part that is torn or damaged at any byte is not used.

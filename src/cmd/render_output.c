@@ -253,7 +253,7 @@ int render_finish(struct render_run *r)
     const char *reason = r->head.parts > 0 ? write_part(r) : write_picture(r, r->output, why);
     r->stats.write_s += thread_seconds() - start;
     int status = reason ? report_output(r, r->output, reason) : 0;
-    if (status == 0 && r->options->resume)
+    if (status == 0 && (r->options->resume || r->frames))
         remove_partial(r);
     if (status == 0 && r->frames && (reason = render_frame_record(r)))
         status = report_output(r, "the list of frames", reason);
