@@ -49,30 +49,15 @@ static void add_refraction(struct level *level, const struct scene *scene,
     path->index = inside ? 1 : ior;
 }
 
-/* to = x by; returns how many of them are 0. */
-static uint64_t scale_all(double *to, const double *x, double by, uint32_t n)
-{
-    uint64_t zeros = 0;
-    for (uint32_t k = 0; k < n; k++) {
-        to[k] = x[k] * by;
-        zeros += to[k] == 0;
-    }
-    return zeros;
-}
-
-/* All points are of one surface, and each surely mirrors some light: false where that is not so. */
+/* All points are of one surface, and each mirrors some light: false where that is not so. */
 static bool reflect_all(const struct worker *w, struct level *level)
 {
     const struct shade_batch *points = &w->points;
-    const struct vec3_batch *intensity = &w->light.intensity;
     const struct material *m = points->finish[0]->material;
     struct offspring *o = &level->reflected;
-    if (!points->in_order || !points->one_surface || !vec3_is_zero(m->refraction))
-        return false;
-    uint64_t dark = scale_all(o->weight.x, intensity->x, m->reflection.x, points->n);
-    dark = scale_all(o->weight.y, intensity->y, m->reflection.y, points->n) && dark;
-    dark = scale_all(o->weight.z, intensity->z, m->reflection.z, points->n) && dark;
-    if (dark)
+    if (!points->in_order || !points->one_surface || !vec3_is_zero(m->refraction) ||
+        w->tracer->kernels->weigh(&w->light.intensity, m->reflection, points->n, &o->weight) !=
+            UINT64_MAX >> (BATCH - points->n))
         return false;
     for (uint32_t k = 0; k < points->n; k++)
         o->parent[k] = k;

@@ -168,9 +168,9 @@ static inline vreal largest_of_3(vreal a, vreal b, vreal c)
 }
 
 /* Fills in b1 and b2 of points i to `end`; where plain products are not enough, one by one. */
-static inline void weigh(const struct geometry *g, const struct hit_shapes *h,
-                         const struct vtriangle *t, uint32_t i, uint32_t end,
-                         struct shade_batch *points)
+static inline void weigh_corners(const struct geometry *g, const struct hit_shapes *h,
+                                 const struct vtriangle *t, uint32_t i, uint32_t end,
+                                 struct shade_batch *points)
 {
     struct vvec3 o = v3_load(h->origin, i);
     struct shear shear = shear_of(v3_load(&points->incoming, i));
@@ -283,7 +283,7 @@ static inline void triangle_points(const struct scene *scene, const struct hit_s
     v3_store(&points->p, i, p);
     v3_store(&points->normal, i, t->normal);
     if (h->weighted)
-        weigh(g, h, t, i, end, points);
+        weigh_corners(g, h, t, i, end, points);
     if (h->bent)
         bend_lanes(scene, t, i, end, points);
 }

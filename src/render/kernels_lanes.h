@@ -277,15 +277,30 @@ static void reflect(const struct shade_batch *points, struct vec3_batch *directi
     }
 }
 
+static uint64_t weigh(const struct vec3_batch *intensity, struct vec3 mirrored, uint32_t n,
+                      struct vec3_batch *weight)
+{
+    vreal zero = v_all(0);
+    uint64_t nothing = 0;
+    for (uint32_t i = 0; i < n; i += LANES) {
+        struct vvec3 w = v3_mul(v3_load(intensity, i), v3_all(mirrored));
+        v3_store(weight, i, w);
+        vmask none = v_equal(w.x, zero) & v_equal(w.y, zero) & v_equal(w.z, zero);
+        nothing |= (uint64_t)v_bits(none) << i;
+    }
+    return ~nothing & UINT64_MAX >> (BATCH - n);
+}
+
 /* The last vector ends at the last element, over what another has seen. */
 static void bounds_along(const double *x, uint32_t n, double *least, double *most)
 {
     vreal lo = v_all(INFINITY), hi = v_all(-INFINITY);
-    for (uint32_t i = 0; i < n; i += LANES) {
-        vreal next = v_load(x + (i + LANES <= n ? i : n - LANES));
-        lo = v_min(next, lo);
-        hi = v_max(next, hi);
+    for (uint32_t i = 0; i + LANES < n; i += LANES) {
+        lo = v_min(v_load(x + i), lo);
+        hi = v_max(v_load(x + i), hi);
     }
+    lo = v_min(v_load(x + n - LANES), lo);
+    hi = v_max(v_load(x + n - LANES), hi);
     *least = v_least(lo);
     *most = v_most(hi);
 }
@@ -353,6 +368,7 @@ const struct render_kernels RENDER_KERNELS = {
     .front = front,
     .give = give,
     .reflect = reflect,
+    .weigh = weigh,
     .bounds = bounds,
     .pack = pack,
     .see = see,

@@ -132,6 +132,17 @@ static void reflect(const struct shade_batch *points, struct vec3_batch *directi
     }
 }
 
+static uint64_t weigh(const struct vec3_batch *intensity, struct vec3 mirrored, uint32_t n,
+                      struct vec3_batch *weight)
+{
+    uint64_t some = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        vec3_put(weight, i, vec3_mul(vec3_get(intensity, i), mirrored));
+        some |= (uint64_t)!vec3_is_zero(vec3_get(weight, i)) << i;
+    }
+    return some;
+}
+
 /* A point with a part that is no number leaves that part out. */
 static struct box bounds(const struct vec3_batch *points, uint32_t n)
 {
@@ -184,6 +195,7 @@ const struct render_kernels render_plain = {
     .front = front,
     .give = modern_give,
     .reflect = reflect,
+    .weigh = weigh,
     .bounds = bounds,
     .pack = pack,
     .see = see,

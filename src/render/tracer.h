@@ -267,6 +267,9 @@ struct render_kernels {
                  const struct sample_batch *samples, struct vec3_batch *gives);
     /* The directions of mirrored rays. */
     void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
+    /* What light of these intensities weighs of which so much is mirrored.  Bit k: k's is not 0. */
+    uint64_t (*weigh)(const struct vec3_batch *intensity, struct vec3 mirrored, uint32_t n,
+                      struct vec3_batch *weight);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
     /* Colours as pixels of a picture of bytes, see picture_set_row. */
     void (*pack)(const struct picture *out, const struct vec3_batch *colours, uint32_t n,

@@ -450,6 +450,27 @@ START_TEST(packed_pixels_are_those_of_single_colours)
 }
 END_TEST
 
+START_TEST(weights_that_are_nothing_are_told)
+{
+    struct vec3_batch intensity, weight, expected;
+    uint32_t n = 1 + (uint32_t)_i;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++)
+        vec3_put(&intensity, i,
+                 i % 5 == 2 ? vec3(0, 1, 0) : vec3_scale(random_vec3(4, i, 0), i % 3));
+    uint64_t some = render_plain.weigh(&intensity, vec3(1, 0, 0.5), n, &expected);
+    for (uint32_t i = 0; i < n; i++)
+        ck_assert((some >> i & 1) == (i % 5 != 2 && i % 3 != 0));
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        ck_assert(
+            render_kernels_of((enum isa)isa)->weigh(&intensity, vec3(1, 0, 0.5), n, &weight) ==
+            some);
+        check_same_vectors(&weight, &expected, n);
+    }
+}
+END_TEST
+
 START_TEST(rays_through_a_grid_are_those_of_single_places)
 {
     struct lens lens = {.ahead = random_vec3(1, 0, 0),
@@ -524,6 +545,7 @@ Suite *kernels_suite(void)
     tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
     tcase_add_loop_test(c, points_lie_where_single_ones_do, 0, 60);
     tcase_add_loop_test(c, packed_pixels_are_those_of_single_colours, 0, 60);
+    tcase_add_loop_test(c, weights_that_are_nothing_are_told, 0, BATCH);
     tcase_add_loop_test(c, rays_through_a_grid_are_those_of_single_places, 0, 64);
     tcase_add_loop_test(c, rays_to_lights_are_those_of_single_points, 0, 2);
     tcase_add_test(c, instruction_sets_have_names);
