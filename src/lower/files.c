@@ -102,8 +102,14 @@ static void keep(struct lower_files *f, struct map *map, struct str key, void *v
 static struct image *decode_image(struct lowering *l, const struct desc_value *file,
                                   const char *path)
 {
+    struct lower_ahead *ahead = lower_ahead(l, path);
     char *data, reason[256];
     size_t n;
+    if (ahead && ahead->image) {
+        struct image *image = ahead->image;
+        ahead->image = NULL;
+        return image;
+    }
     if (!read_file(l, file, path, "texture", &data, &n))
         return NULL;
     struct image *image = image_decode(data, n, reason);
@@ -123,8 +129,6 @@ static struct image *load_image(struct lowering *l, const struct desc_value *fil
     image = l->kept ? map_get(&l->kept->images, str_of(path)) : NULL;
     bool known = image != NULL;
     if (!known)
-        image = lower_ahead_take(l, path);
-    if (!image)
         image = decode_image(l, file, path);
     if (!image)
         return NULL;
@@ -198,7 +202,14 @@ void lower_label_request(struct lowering *l, size_t first, const struct desc_val
 static struct mesh *read_mesh(struct lowering *l, const struct desc_value *file, const char *path)
 {
 #ifdef HAVE_OPENMESH
-    const struct source *s = load_source(l, file, path, "mesh");
+    struct lower_ahead *ahead = lower_ahead(l, path);
+    if (ahead && ahead->mesh) {
+        struct mesh *mesh = ahead->mesh;
+        ahead->mesh = NULL;
+        return mesh;
+    }
+    const struct source *s =
+        ahead && ahead->source ? ahead->source : load_source(l, file, path, "mesh");
     size_t first = l->diag->entries.n;
     struct mesh *m = s ? mesh_parse(s, l->diag) : NULL;
     if (s)

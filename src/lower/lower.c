@@ -114,9 +114,9 @@ static bool lower_desc(const struct desc *d, struct srcmap *sources, struct lowe
     };
     size_t errors = diag->errors;
     lower_camera(&l);
+    lower_look_ahead(&l, threads);
     lower_count_meshes(&l);
     lower_settings(&l);
-    lower_look_ahead(&l, threads);
     for (size_t i = 0; i < d->lights.n; i++) {
         diag->frame = d->lights.at[i]->frame;
         lower_light(&l, d->lights.at[i]);

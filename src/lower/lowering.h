@@ -23,10 +23,12 @@ struct lower_files {
     VEC(struct mesh *) all_meshes;
 };
 
-/* A texture that is going to be asked for. */
+/* A texture or a mesh that is going to be asked for. */
 struct lower_ahead {
     const char *path;
-    struct image *image; /* NULL: taken, or it could not be decoded */
+    const struct source *source; /* of a mesh */
+    struct image *image;         /* NULL: taken, or it could not be decoded */
+    struct mesh *mesh;           /* NULL: taken, or there is something to say of it */
 };
 
 struct lowering {
@@ -42,6 +44,7 @@ struct lowering {
     uint32_t *data_of;                /* of those that are normals */
     const double *decode8, *decode16; /* see struct texture; NULL until needed */
     VEC(struct lower_ahead) ahead;
+    struct map ahead_of; /* path to its number there + 1, as a pointer */
     struct map images;   /* path to struct image, decoded once */
     struct map meshes;   /* path to its number in out->meshes + 1, as a pointer */
     struct map models;   /* path and ratio to struct mesh_model */
@@ -50,10 +53,12 @@ struct lowering {
 
 /* ---- ahead.c ---- */
 
-/* Decodes the textures of all surfaces, if there are several, and several threads for it. */
+/* Decodes the textures and meshes of all surfaces, if there are several, and several threads for
+ * it.
+ */
 void lower_look_ahead(struct lowering *l, unsigned threads);
-/* The decoded texture, which is the caller's from now on; NULL where there is none. */
-struct image *lower_ahead_take(struct lowering *l, const char *path);
+/* What is known of the file, or NULL; who takes its image or mesh puts NULL there. */
+struct lower_ahead *lower_ahead(struct lowering *l, const char *path);
 void lower_ahead_free(struct lowering *l);
 
 /* ---- files.c ---- */
