@@ -133,6 +133,9 @@ int command_diff(const struct options *o)
                            o->scenes.n == 1 ? "is" : "are");
     if (strcmp(o->scenes.at[0], "-") == 0 && strcmp(o->scenes.at[1], "-") == 0)
         return usage_error("diff: only one of the two can be standard input");
+    if (options_overwritten(o))
+        return usage_error("--out: '%s' is compared, and would be lost under the difference",
+                           options_overwritten(o));
     struct diff_input inputs[2] = {read_input(o->scenes.at[0], o), read_input(o->scenes.at[1], o)};
     int status = diff_inputs(inputs, o);
     free(inputs[0].bytes);

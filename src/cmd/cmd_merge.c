@@ -161,6 +161,9 @@ int command_merge(const struct options *o)
         return usage_error("'%s': this wrt was built without OpenEXR", o->output);
     if (o->bits && !(format == PICTURE_EXR && o->bits != 8))
         return usage_error("merge: --bits is 16 or 32, for OpenEXR; else the parts have them");
+    if (options_overwritten(o))
+        return usage_error("merge: '%s' is a part; it would be lost under the picture",
+                           options_overwritten(o));
     struct merge m = {.options = o};
     frontend_init(&m.frontend, o);
     for (size_t i = 0; i < o->scenes.n; i++)

@@ -25,6 +25,9 @@ int command_uv(const struct options *o)
     if (o->scenes.n != 1)
         return o->scenes.n ? usage_error("uv takes one file, but %zu are given", o->scenes.n)
                            : usage_error("uv: no file given");
+    if (options_overwritten(o))
+        return usage_error("uv: '%s' is what the list is made of; it would be lost under that",
+                           options_overwritten(o));
     struct frontend f;
     frontend_init(&f, o);
     convert(&f, o->scenes.at[0], o->output ? o->output : "-");

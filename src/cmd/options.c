@@ -2,6 +2,7 @@
 
 #include "cmd/option_arguments.h"
 
+#include "base/file.h"
 #include "base/num.h"
 #include "base/thread.h"
 
@@ -206,6 +207,15 @@ enum options_result options_read(int argc, char **argv, unsigned command, struct
     out->own_threads = out->threads == 0;
     out->threads = out->own_threads ? thread_cores() : out->threads;
     return OPTIONS_RUN;
+}
+
+const char *options_overwritten(const struct options *o)
+{
+    bool file = o->output && strcmp(o->output, "-") != 0;
+    for (size_t i = 0; file && i < o->scenes.n; i++)
+        if (strcmp(o->scenes.at[i], "-") != 0 && file_same(o->output, o->scenes.at[i]))
+            return o->scenes.at[i];
+    return NULL;
 }
 
 void options_free(struct options *o)

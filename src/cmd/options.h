@@ -106,6 +106,9 @@ int options_first_operand(int argc, char **argv);
 /* The lines of help for a command's options. */
 void options_help(unsigned command, FILE *out);
 
+/* The first of the operands that the output is, so that it would be lost; or NULL. */
+const char *options_overwritten(const struct options *o);
+
 /* "wrt: error: ..." on stderr; returns EXIT_USAGE. */
 int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
