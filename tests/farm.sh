@@ -83,26 +83,35 @@ done
 # What is kept when a signal ends other renders, and what is not, is said.
 cp "$scene" film.wrt
 sed -i "s|\"../|\"$top/|; s/^model .*/&\nparam frame = 0/" film.wrt
-ended()
+pids=() said=()
+# ends_saying WHAT OPTIONS...
+ends_saying()
 {
-    local what=$1 pid
+    said+=("$1")
     shift
-    env --default-signal=INT "$wrt" render -q "$@" >/dev/null 2>err &
-    pid=$!
-    sleep 0.2
-    kill -INT $pid
-    wait $pid
-    grep -qF -- "$what" err || complain "$*: said: $(cat err)"
+    env --default-signal=INT "$wrt" render -q "$@" >/dev/null 2>"err${#said[@]}" &
+    pids+=($!)
 }
 slow=(--res 900x700 -s 9)
-ended '% of the picture; nothing of it was kept' "$scene" "${slow[@]}" -o -
-ended '% of the part; nothing of it was kept' "$scene" "${slow[@]}" --part 1/2 -o part
-ended "% of the part; --checkpoint 'journal' --resume goes on" "$scene" "${slow[@]}" --part 1/2 --checkpoint journal
-ended "before the time was over; the picture so far is in 'timed.partial.png'" "$scene" --time 60 -o timed.png
-ended "'film-0001.partial.png'; --checkpoint 'film-%d' --resume goes on" film.wrt "${slow[@]}" --frames 1..2 --checkpoint film-%d
+ends_saying '% of the picture; nothing of it was kept' "$scene" "${slow[@]}" -o -
+ends_saying '% of the part; nothing of it was kept' "$scene" "${slow[@]}" --part 1/2 -o part
+ends_saying "% of the part; --checkpoint 'journal' --resume goes on" "$scene" "${slow[@]}" --part 1/2 --checkpoint journal
+ends_saying "before the time was over; the picture so far is in 'timed.partial.png'" "$scene" --time 60 -o timed.png
+ends_saying "'film-0001.partial.png'; --checkpoint 'film-%d' --resume goes on" film.wrt "${slow[@]}" --frames 1..2 --checkpoint film-%d
+for pid in "${pids[@]}"; do
+    for ((i = 0; i < 500; i++)); do # until SIGINT, the second bit, is caught
+        [[ $(sed -n 's/^SigCgt:[^0-9a-f]*//p' "/proc/$pid/status") =~ [2367abef]$ ]] && break
+        sleep 0.02
+    done
+done 2>/dev/null
+kill -INT "${pids[@]}"
+wait
+for ((i = 0; i < ${#said[@]}; i++)); do
+    grep -qF -- "${said[i]}" "err$((i + 1))" || complain "not '${said[i]}', but: $(cat "err$((i + 1))")"
+done
 "$wrt" film.wrt -q --res 8x6 --frames 1..1 && [ ! -e film-0001.partial.png ] ||
     complain "the frame so far is still there"
-rm -f film* journal timed* part
+rm -f film* journal timed* part err?
 
 # A part that is torn or damaged at any byte is not used.
 render part --res 80x60 --part 1/1

@@ -65,13 +65,17 @@ echo 'sphere {' >wrong.wrt
 timeout 120 mpirun -n 3 "$wrt" wrong.wrt --mpi 2>err && complain "a wrong scene was rendered"
 [ "$(grep -c 'error:' err)" = 1 ] || complain "an error is not told once: $(cat err)"
 
+mkdir list-frames.png.txt
+timeout 120 mpirun -n 3 "$wrt" film.wrt --mpi --frames 1..2 -o list-%d.png 2>err
+[ "$(grep -c 'could not read the list of frames' err)" = 1 ] || complain "a list of frames that is none: $(cat err)"
+
 # A process is killed: mpirun ends them all, and the journal makes the lost job whole.
 slow=(--res 320x240 -s 3)
 "$wrt" -q "$scene" "${slow[@]}" -o whole.png
 mpirun -n 3 "$wrt" -q "$scene" "${slow[@]}" --mpi -o shared.png --checkpoint journal >log 2>&1 &
 job=$!
 for ((i = 0; i < 100; i++)); do
-    [ "$(wc -c <journal 2>/dev/null || echo 0)" -gt 5000 ] && break
+    [ "$({ wc -c <journal; } 2>/dev/null || echo 0)" -gt 5000 ] && break
     sleep 0.05
 done
 victim=$(pgrep -P "$job" -f "$scene" | tail -n 1)
