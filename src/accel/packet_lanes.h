@@ -536,10 +536,10 @@ static bool walk_packet(struct packet *p)
     int leaves = 0;
     struct wide_pending stack[WIDE_STACK], *top = stack;
     alignas(32) float enter[WIDE];
-    *top++ = (struct wide_pending){{0, WIDE_NODE, 0}, -INFINITY};
+    *top++ = (struct wide_pending){&WIDE_ROOT, -INFINITY};
     while (top > stack) {
         top--;
-        struct wide_child at = top->child;
+        struct wide_child at = *top->child;
         if (top->enter > p->in_frame.far)
             continue;
         if (at.kind == WIDE_NODE) {

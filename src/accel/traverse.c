@@ -158,10 +158,11 @@ static bool find(const struct accel *a, const struct ray *ray, const struct ray_
 
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit)
 {
-    *hit = hit_none(ray->t_max);
+    hit_clear(hit, ray->t_max);
     if (!ray_has_direction(ray))
         return false;
-    struct ray_frame frame = ray_frame_of(ray);
+    struct ray_frame frame;
+    ray_frame_init(&frame, ray, a->geometry->spheres.n > 0, a->geometry->triangles.n > 0);
     return find(a, ray, &frame, false, hit);
 }
 
@@ -169,7 +170,9 @@ bool accel_any(const struct accel *a, const struct ray *ray)
 {
     if (!ray_has_direction(ray))
         return false;
-    struct hit hit = hit_none(ray->t_max);
-    struct ray_frame frame = ray_frame_of(ray);
+    struct hit hit;
+    struct ray_frame frame;
+    hit_clear(&hit, ray->t_max);
+    ray_frame_init(&frame, ray, a->geometry->spheres.n > 0, a->geometry->triangles.n > 0);
     return find(a, ray, &frame, true, &hit);
 }

@@ -54,6 +54,16 @@ static inline vfour four_max(vfour a, vfour b)
 #endif
 }
 
+static inline vfour four_abs(vfour a)
+{
+    return (vfour)((vfour_int)a & INT32_MAX);
+}
+
+static inline vfour four_copysign(vfour a, vfour sign)
+{
+    return (vfour)(((vfour_int)a & INT32_MAX) | ((vfour_int)sign & INT32_MIN));
+}
+
 /* ---- as many as there are ---------------------------------------------------------------------
  */
 
@@ -116,6 +126,23 @@ static inline unsigned f_at_most(vfloat a, vfloat b)
 #endif
 }
 
+#endif
+
+/* a b + c.  Beside one rounding of that, which is relative to it, products of |a| <= 1 are off by
+ * no more than this times |b|. */
+static inline vfloat f_bound(vfloat a, vfloat b, vfloat c)
+{
+#if defined __AVX2__ && defined __FMA__
+    return _mm256_fmadd_ps(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
+#if defined __AVX2__ && defined __FMA__
+#define F_BOUND_ERROR 0.0f
+#else
+#define F_BOUND_ERROR 0x1p-24f
 #endif
 
 #endif

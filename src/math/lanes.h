@@ -490,4 +490,51 @@ static inline vreal v3_largest(struct vvec3 a)
     return v_max(v_max(x, y), z);
 }
 
+/* ---- four of them, for what has three parts ----------------------------------------------------
+ */
+
+typedef double vquad __attribute__((vector_size(32)));
+typedef int64_t vquad_int __attribute__((vector_size(32)));
+typedef float vquad_floats __attribute__((vector_size(16)));
+
+static inline vquad quad_all(double a)
+{
+    return (vquad){a, a, a, a};
+}
+
+static inline vquad quad_of(struct vec3 a)
+{
+    return (vquad){a.x, a.y, a.z, 0};
+}
+
+static inline vquad quad_abs(vquad a)
+{
+    return (vquad)((vquad_int)a & INT64_MAX);
+}
+
+static inline vquad quad_copysign(vquad a, vquad sign)
+{
+    return (vquad)(((vquad_int)a & INT64_MAX) | ((vquad_int)sign & INT64_MIN));
+}
+
+static inline vquad quad_select(vquad_int mask, vquad a, vquad b)
+{
+    return (vquad)((mask & (vquad_int)a) | (~mask & (vquad_int)b));
+}
+
+static inline bool quad_any(vquad_int mask)
+{
+    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
+
+static inline vquad_floats quad_floats(vquad a)
+{
+    return __builtin_convertvector(a, vquad_floats);
+}
+
+static inline vquad quad_wide(vquad_floats a)
+{
+    return __builtin_convertvector(a, vquad);
+}
+
 #endif

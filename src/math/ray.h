@@ -52,6 +52,15 @@ static inline struct hit hit_none(double t_max)
     return (struct hit){.t = t_max, .prim = PRIM_NONE};
 }
 
+/* *hit = hit_none(t_max), part by part: a copy of all would wait for the parts to be stored. */
+static inline void hit_clear(struct hit *hit, double t_max)
+{
+    hit->t = t_max;
+    hit->prim = PRIM_NONE;
+    hit->part = 0;
+    hit->b1 = hit->b2 = 0;
+}
+
 /* Whether a hit at t comes before *best; a t of zero, below, or not a number never does. */
 static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
 {
@@ -82,12 +91,10 @@ static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bo
     if (!triangles)
         return;
     double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
-    if (x > y && x > z)
-        f->axis = 0, f->shear_x = d.y / d.x, f->shear_y = d.z / d.x;
-    else if (y > z)
-        f->axis = 1, f->shear_x = d.z / d.y, f->shear_y = d.x / d.y;
-    else
-        f->axis = 2, f->shear_x = d.x / d.z, f->shear_y = d.y / d.z;
+    const double part[5] = {d.x, d.y, d.z, d.x, d.y};
+    f->axis = x > y && x > z ? 0 : y > z ? 1 : 2;
+    f->shear_x = part[f->axis + 1] / part[f->axis];
+    f->shear_y = part[f->axis + 2] / part[f->axis];
 }
 
 static inline struct ray_frame ray_frame_of(const struct ray *ray)

@@ -80,21 +80,10 @@ static double clamp_to_bounds(const struct geometry *g, const struct triangle *t
     return t <= far ? t : far;
 }
 
-/* t comes from the plane, not from the corners' distances: it is then the same for all triangles of
- * one axis-aligned plane.  Above an angle of about 15 degrees to the plane its error stays within a
- * box's padding. */
-double triangle_distance(const struct geometry *g, const struct triangle *tri,
-                         const struct ray *ray, const struct ray_frame *frame)
+double triangle_distance_at_grazing(const struct geometry *g, const struct triangle *t,
+                                    const struct ray *ray, double distance, double speed)
 {
-    struct vec3 n = tri->normal;
-    double distance = vec3_dot(n, vec3_sub(corner_at(g, tri, 0), ray->origin));
-    double speed = vec3_dot(n, ray->direction);
-    double rounding = frame->tolerance * (frame->reach + tri->reach);
-    if (fabs(distance) <= rounding)
-        return 0; /* the origin is on the plane */
-    if (speed * speed >= 0x1p-4 * frame->square)
-        return distance / speed;
-    return vec3_largest(n) > 0 ? clamp_to_bounds(g, tri, ray, distance / speed) : 0;
+    return vec3_largest(t->normal) > 0 ? clamp_to_bounds(g, t, ray, distance / speed) : 0;
 }
 
 /* On the plane, and inside of each edge or as near to it as rounding errors reach. */
