@@ -77,9 +77,9 @@ static void frames_init(struct frame_batch *f, const struct geometry *g,
     f->n = (rays->n + LANES - 1) / LANES * LANES;
     f->tolerance = rays->spawned ? SPAWN_TOLERANCE : 0;
     for (uint32_t i = 0; i < f->n; i += LANES) {
-        struct vvec3 d = v3_load(&rays->direction, i), o = v3_load(&rays->origin, i);
+        struct vvec3 d = v3_load(&rays->direction, i);
         v_store(f->square + i, v3_dot(d, d));
-        v_store(f->reach + i, rays->spawned ? v3_largest(o) : v_all(0));
+        v_store(f->reach + i, rays->spawned ? v3_largest(v3_load(&rays->origin, i)) : v_all(0));
         v_store(hits->t + i, v_load(rays->t_max + i));
         v_store(hits->prim + i, v_all(PRIM_NONE));
         v_store(hits->part + i, v_all(0));
@@ -305,49 +305,72 @@ static vreal clamped_to_bounds(const struct geometry *g, const struct triangle *
 }
 
 /* parts: bit j stands for rays PART j to PART (j + 1) - 1; returns those in which there are hits.
- */
+ * The corners are the target's; of a common origin they are seen alike by all rays. */
 static inline unsigned meet_triangle_along(struct frame_batch *f, struct target target,
-                                           unsigned parts, int axis)
+                                           const struct vec3 corner[3], unsigned parts, int axis,
+                                           bool common_origin)
 {
     const struct triangle *tri = &f->geometry->triangles.at[target.index];
-    const struct vec3 *v = f->geometry->vertices.at;
-    struct vvec3 corner[3], seen[3], normal = v3_all(tri->normal);
+    const struct ray_batch *rays = f->rays;
+    const struct vec3 origin = vec3_get(&rays->origin, 0);
+    struct vvec3 seen[3], normal = v3_all(tri->normal);
     vreal zero = v_all(0);
     unsigned met = 0;
     for (int k = 0; k < 3; k++)
-        corner[k] = v3_all(v[tri->vertex[k]]);
+        seen[k] = v3_all(common_origin ? vec3_sub(corner[k], origin) : corner[k]);
     for (uint32_t i = next_lanes(f, &parts, 0); i < f->n; i = next_lanes(f, &parts, i + LANES)) {
-        struct vvec3 d = v3_load(&f->rays->direction, i), o = v3_load(&f->rays->origin, i);
-        for (int k = 0; k < 3; k++)
-            seen[k] = v3_sub(corner[k], o);
+        for (int k = 0; k < 3 && !common_origin; k++)
+            seen[k] = v3_sub(v3_all(corner[k]), v3_load(&rays->origin, i));
+        vmask may = meets_lines(f, i, seen, axis);
+        if (!v_any(may))
+            continue;
+        struct vvec3 d = v3_load(&rays->direction, i);
         vreal distance = v3_dot(normal, seen[0]), speed = v3_dot(normal, d);
         vreal rounding = f->tolerance * (v_load(f->reach + i) + tri->reach);
-        vmask may = v_not(v_equal(v_load(f->rays->from + i), v_all(target.prim))) &
-                    v_not(v_at_most(v_abs(distance), rounding));
-        may &= meets_lines(f, i, seen, axis);
+        may &= v_not(v_equal(v_load(rays->from + i), v_all(target.prim))) &
+               v_not(v_at_most(v_abs(distance), rounding));
         if (!v_any(may))
             continue;
         vreal t = distance / speed;
         vmask steep = v_at_most(0x1p-4 * v_load(f->square + i), speed * speed);
         if (v_any(may & v_not(steep)))
-            t = v_select(steep, t, clamped_to_bounds(f->geometry, tri, o, d, t));
+            t = v_select(steep, t,
+                         clamped_to_bounds(f->geometry, tri, v3_load(&rays->origin, i), d, t));
         if (offer(f, i, v_select(may, t, zero), target.prim, zero))
             met |= 1u << i / PART;
     }
     return met;
 }
 
-static unsigned meet_triangle(struct frame_batch *f, struct target target, unsigned parts)
+static unsigned meet_seen_triangle(struct frame_batch *f, struct target target,
+                                   const struct vec3 corner[3], unsigned parts)
 {
     switch (f->axis) {
     case 0:
-        return meet_triangle_along(f, target, parts, 0);
+        return meet_triangle_along(f, target, corner, parts, 0, true);
     case 1:
-        return meet_triangle_along(f, target, parts, 1);
+        return meet_triangle_along(f, target, corner, parts, 1, true);
     case 2:
-        return meet_triangle_along(f, target, parts, 2);
+        return meet_triangle_along(f, target, corner, parts, 2, true);
     default:
-        return meet_triangle_along(f, target, parts, -1);
+        return meet_triangle_along(f, target, corner, parts, -1, true);
+    }
+}
+
+static unsigned meet_triangle(struct frame_batch *f, struct target target,
+                              const struct vec3 corner[3], unsigned parts)
+{
+    if (f->rays->common_origin)
+        return meet_seen_triangle(f, target, corner, parts);
+    switch (f->axis) {
+    case 0:
+        return meet_triangle_along(f, target, corner, parts, 0, false);
+    case 1:
+        return meet_triangle_along(f, target, corner, parts, 1, false);
+    case 2:
+        return meet_triangle_along(f, target, corner, parts, 2, false);
+    default:
+        return meet_triangle_along(f, target, corner, parts, -1, false);
     }
 }
 
@@ -360,8 +383,12 @@ static void meet(struct frame_batch *f, struct target target)
         meet_sphere(f, target);
     else if (target.kind == PRIM_CYLINDER)
         meet_cylinder(f, target);
-    else
-        meet_triangle(f, target, ALL_PARTS);
+    else {
+        const uint32_t *vertex = f->geometry->triangles.at[target.index].vertex;
+        const struct vec3 *v = f->geometry->vertices.at;
+        meet_triangle(f, target, (struct vec3[]){v[vertex[0]], v[vertex[1]], v[vertex[2]]},
+                      ALL_PARTS);
+    }
 }
 
 static void frames_for_list(struct frame_batch *f, const struct geometry *g,

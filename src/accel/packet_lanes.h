@@ -38,13 +38,25 @@ struct aspects {
     alignas(32) float way[WIDE]; /* of triangles, their nearest corner's; of rays, the farthest */
 };
 
+/* Of all parts together. */
+struct outline {
+    float least[2], most[2], way;
+};
+
+/* A wedge of the whole packet in the frame of the tree's boxes. */
+struct frame_wedge {
+    float slope[2], bound[2];
+};
+
 struct packet {
     const struct accel *accel;
     struct frame_batch *frames;
     int axis[3];   /* x, y, k */
     bool down;     /* the rays run down k; distances along it are then counted negatively */
     bool converge; /* towards a common end, not from a common origin */
+    bool converge_at_apex;
     bool endless;
+    double longest;        /* t_max */
     bool any;              /* a ray ends at the first hit found */
     bool parted;           /* `part` or `aspects` are made: once a leaf is reached */
     bool has_apex;         /* all rays start there, or would end there at t = 1 */
@@ -53,11 +65,13 @@ struct packet {
     struct range start[3]; /* of the origins, along x, y and k */
     double padding, near;
     struct pyramid whole, part[PARTS];
-    struct aspects aspects;  /* of the parts, where there is an apex */
-    struct pyramid in_frame; /* the whole one in the frame of the tree's boxes */
-    double near_in_frame;
-    alignas(64) double slope[2][BATCH_ROOM]; /* x and y over k */
-    alignas(64) double end[3][BATCH_ROOM];   /* unless endless */
+    struct aspects aspects; /* of the parts, where there is an apex */
+    struct outline outline; /* of all of them */
+    struct frame_wedge in_frame[2];
+    float near_in_frame, far_in_frame;
+    const double *slope[2]; /* x and y over k */
+    alignas(64) double own_slope[2][BATCH_ROOM];
+    alignas(64) double end[3][BATCH_ROOM]; /* unless endless */
 };
 
 /* ---- pyramids -------------------------------------------------------------------------------- */
@@ -103,6 +117,14 @@ static void bound_points(const struct packet *p, const double *x, const double *
     w->bound[1] = v_most(high);
 }
 
+static void bound_apex(const struct packet *p, int side, struct wedge *w)
+{
+    double low = p->apex[side] - w->slope[0] * p->apex[2];
+    double high = p->apex[side] - w->slope[1] * p->apex[2];
+    w->bound[0] = low < w->bound[0] ? low : w->bound[0];
+    w->bound[1] = high > w->bound[1] ? high : w->bound[1];
+}
+
 /* Around the rays first to end. */
 static struct wedge wedge_around(const struct packet *p, int side, uint32_t first, uint32_t end)
 {
@@ -114,7 +136,8 @@ static struct wedge wedge_around(const struct packet *p, int side, uint32_t firs
         least = v_min(slope, least);
         most = v_max(slope, most);
     }
-    struct wedge w = {{v_least(least), v_most(most)}, {INFINITY, -INFINITY}};
+    double low = v_least(least), high = v_most(most);
+    struct wedge w = {{float_below(low), float_above(high)}, {INFINITY, -INFINITY}};
     if (p->down != p->converge)
         w = (struct wedge){{w.slope[1], w.slope[0]}, {INFINITY, -INFINITY}};
     if (p->frames->rays->common_origin)
@@ -122,7 +145,9 @@ static struct wedge wedge_around(const struct packet *p, int side, uint32_t firs
                            {x[0] - w.slope[0] * k[0], x[0] - w.slope[1] * k[0]}};
     else
         bound_points(p, x, k, first, end, &w);
-    if (!p->endless)
+    if (p->converge_at_apex)
+        bound_apex(p, side, &w);
+    else if (!p->endless)
         bound_points(p, p->end[side], p->end[2], first, end, &w);
     w.bound[0] -= p->padding * (1 + fabs(w.slope[0]));
     w.bound[1] += p->padding * (1 + fabs(w.slope[1]));
@@ -137,14 +162,17 @@ static double along_in_frame(const struct packet *p, double k)
     return (k - (p->down ? -center : center)) * f->scale;
 }
 
-static struct wedge wedge_in_frame(const struct packet *p, int side)
+/* Slopes are floats already. */
+static struct frame_wedge wedge_in_frame(const struct packet *p, int side)
 {
     const struct tree_frame *f = &p->accel->wide->frame;
-    struct wedge w = p->whole.side[side];
-    double x = f->center[p->axis[side]], k = f->center[p->axis[2]];
+    const struct wedge *w = &p->whole.side[side];
+    double x = f->center[p->axis[side]], k = f->center[p->axis[2]], bound[2];
     for (int i = 0; i < 2; i++)
-        w.bound[i] = (w.bound[i] - (x - w.slope[i] * k)) * f->scale;
-    return w;
+        bound[i] = (w->bound[i] - (x - w->slope[i] * k)) * f->scale;
+    return (struct frame_wedge){{(float)w->slope[0], (float)w->slope[1]},
+                                {float_below(bound[0] - F_BOUND_ERROR * fabs(w->slope[0])),
+                                 float_above(bound[1] + F_BOUND_ERROR * fabs(w->slope[1]))}};
 }
 
 /* How far along k a part's rays can still hit; those with a hit no more, where any counts. */
@@ -205,7 +233,11 @@ static void find_farthest(struct packet *p, unsigned parts)
     p->whole.far = -INFINITY;
     for (uint32_t j = 0; PART * j < p->frames->n; j++)
         p->whole.far = p->part[j].far > p->whole.far ? p->part[j].far : p->whole.far;
-    p->in_frame.far = along_in_frame(p, p->whole.far);
+    p->outline.way = -INFINITY;
+    for (uint32_t j = 0; PART * j < p->frames->n && p->has_apex; j++)
+        p->outline.way = p->aspects.way[j] > p->outline.way ? p->aspects.way[j] : p->outline.way;
+    double far = along_in_frame(p, p->whole.far);
+    p->far_in_frame = far == -INFINITY ? -INFINITY : float_above(far);
 }
 
 /* Slopes are widened by this, and this much of themselves: more than what floats and the padding
@@ -227,6 +259,10 @@ static void make_aspects(struct packet *p)
             p->aspects.least[side][j] = lo - (fabsf(lo) * SLOPE_SLACK + SLOPE_SLACK);
             p->aspects.most[side][j] = hi + (fabsf(hi) * SLOPE_SLACK + SLOPE_SLACK);
         }
+    }
+    for (int side = 0; side < 2; side++) {
+        p->outline.least[side] = f_least(p->aspects.least[side]);
+        p->outline.most[side] = f_most(p->aspects.most[side]);
     }
     p->parted = true;
 }
@@ -266,11 +302,30 @@ static bool find_axis(struct packet *p)
     return best > 0 && best * 16 >= largest;
 }
 
+/* Where the rays start. */
+static void find_starts(struct packet *p)
+{
+    const struct ray_batch *rays = p->frames->rays;
+    double reach = 0;
+    for (int side = 0; side < 3; side++) {
+        const double *o = along(&rays->origin, p->axis[side]);
+        struct range r = {o[0], o[0]};
+        if (!rays->common_origin)
+            r = range_of(p, o);
+        reach = fmax(reach, fmax(fabs(r.lo), fabs(r.hi)));
+        p->start[side] = r;
+    }
+    p->longest = range_of(p, rays->t_max).hi;
+    p->endless = !(p->longest <= 0x1p60);
+    p->padding = 2 * p->accel->padding * (p->accel->reach + reach);
+    p->near = (p->down ? -p->start[2].hi : p->start[2].lo) - p->padding;
+}
+
 /* Whether all rays start, or would end, at one point. */
 static void find_apex(struct packet *p)
 {
     const struct ray_batch *rays = p->frames->rays;
-    p->has_apex = rays->common_origin || range_of(p, rays->t_max).hi <= 1;
+    p->has_apex = rays->common_origin || p->longest <= 1;
     p->ahead = p->down != rays->common_origin;
     for (int side = 0; side < 3 && p->has_apex; side++) {
         const double *o = along(&rays->origin, p->axis[side]);
@@ -283,43 +338,43 @@ static void find_apex(struct packet *p)
                 !v_any(v_less(v_all(0.25 * p->padding),
                               v_abs(lanes_of(p, o, i) + lanes_of(p, d, i) - v_all(p->apex[side]))));
     }
+    p->converge_at_apex = p->has_apex && !rays->common_origin;
+    p->converge = p->converge_at_apex;
 }
 
-/* Where the rays start and end. */
+/* Where the rays end. */
 static void find_ends(struct packet *p)
 {
     const struct ray_batch *rays = p->frames->rays;
-    double reach = 0, wider = 0;
-    p->endless = !(range_of(p, rays->t_max).hi <= 0x1p60);
+    double wider = 0;
     for (int side = 0; side < 3; side++) {
         const double *o = along(&rays->origin, p->axis[side]);
         const double *d = along(&rays->direction, p->axis[side]);
-        struct range r = {o[0], o[0]};
-        if (!rays->common_origin)
-            r = range_of(p, o);
-        reach = fmax(reach, fmax(fabs(r.lo), fabs(r.hi)));
-        p->start[side] = r;
-        if (p->endless)
-            continue;
+        struct range start = p->start[side];
         for (uint32_t i = 0; i < p->frames->n; i += LANES)
             v_store(p->end[side] + i, v_load(o + i) + v_load(rays->t_max + i) * v_load(d + i));
         struct range end = range_of(p, p->end[side]);
-        wider += side < 2 ? (r.hi - r.lo) - (end.hi - end.lo) : 0;
+        wider += side < 2 ? (start.hi - start.lo) - (end.hi - end.lo) : 0;
     }
     p->converge = wider > 0;
-    p->padding = 2 * p->accel->padding * (p->accel->reach + reach);
-    p->near = (p->down ? -p->start[2].hi : p->start[2].lo) - p->padding;
 }
 
 static void find_slopes(struct packet *p)
 {
-    const struct vec3_batch *d = &p->frames->rays->direction;
+    const struct frame_batch *f = p->frames;
+    const struct vec3_batch *d = &f->rays->direction;
     const double *x = along(d, p->axis[0]), *y = along(d, p->axis[1]), *k = along(d, p->axis[2]);
-    for (uint32_t i = 0; i < p->frames->n; i += LANES) {
+    p->slope[0] = f->shear_x;
+    p->slope[1] = f->shear_y;
+    if (f->axis == p->axis[2])
+        return;
+    for (uint32_t i = 0; i < f->n; i += LANES) {
         vreal inverse = 1 / v_load(k + i);
-        v_store(p->slope[0] + i, v_load(x + i) * inverse);
-        v_store(p->slope[1] + i, v_load(y + i) * inverse);
+        v_store(p->own_slope[0] + i, v_load(x + i) * inverse);
+        v_store(p->own_slope[1] + i, v_load(y + i) * inverse);
     }
+    p->slope[0] = p->own_slope[0];
+    p->slope[1] = p->own_slope[1];
 }
 
 /* Rays that spread more than this, in units of the way along k, are better off alone. */
@@ -330,17 +385,21 @@ static bool packet_init(struct packet *p)
     const struct frame_batch *f = p->frames;
     if (!find_axis(p))
         return false;
-    find_ends(p);
+    find_starts(p);
     find_apex(p);
+    if (!p->endless && !p->converge_at_apex)
+        find_ends(p);
     find_slopes(p);
     for (int side = 0; side < 2; side++) {
         struct wedge *w = &p->whole.side[side];
         *w = wedge_around(p, side, 0, f->n);
         if (!(fabs(w->slope[1] - w->slope[0]) <= WIDEST_WEDGE))
             return false;
-        p->in_frame.side[side] = wedge_in_frame(p, side);
+        p->in_frame[side] = wedge_in_frame(p, side);
+        if (!(fabsf(p->in_frame[side].bound[1] - p->in_frame[side].bound[0]) <= FLT_MAX))
+            return false;
     }
-    p->near_in_frame = along_in_frame(p, p->near);
+    p->near_in_frame = float_below(along_in_frame(p, p->near));
     p->parted = false;
     find_farthest(p, parts_of_rays(f));
     return true;
@@ -348,16 +407,17 @@ static bool packet_init(struct packet *p)
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-/* The lanes in which the box surely lies outside of the wedge. */
-static inline vmask box_outside(const struct wedge *w, const struct wide_node *node, int x, int k,
-                                int i)
+/* The boxes (bit j: box i + j) that the wedge may touch.  What rounds to a bound's wrong side was
+ * there before: bounds are floats, and a sum is rounded once. */
+static inline unsigned boxes_touched(const struct frame_wedge *w, const struct wide_node *node,
+                                     int x, int k, int i)
 {
-    double low = w->slope[0], high = w->slope[1];
-    vreal most = v_bound(v_all(-low), v_load_floats(node->plane[low < 0][k] + i),
-                         v_load_floats(node->plane[1][x] + i));
-    vreal least = v_bound(v_all(-high), v_load_floats(node->plane[high > 0][k] + i),
-                          v_load_floats(node->plane[0][x] + i));
-    return v_less(most, v_all(w->bound[0])) | v_less(v_all(w->bound[1]), least);
+    float low = w->slope[0], high = w->slope[1];
+    vfloat most =
+        f_bound(f_load(node->plane[low < 0][k] + i), f_all(-low), f_load(node->plane[1][x] + i));
+    vfloat least =
+        f_bound(f_load(node->plane[high > 0][k] + i), f_all(-high), f_load(node->plane[0][x] + i));
+    return f_at_most(f_all(w->bound[0]), most) & f_at_most(least, f_all(w->bound[1]));
 }
 
 /* The children that the pyramid may touch, and how far along k they begin. */
@@ -365,16 +425,17 @@ static inline unsigned touched_children(const struct packet *p, const struct wid
                                         float *enter)
 {
     unsigned touched = 0;
-    for (int i = 0; i < WIDE; i += LANES) {
-        int k = p->axis[2];
-        vreal lo = v_load_floats(node->plane[0][k] + i), hi = v_load_floats(node->plane[1][k] + i);
-        vreal begin = p->down ? -hi : lo, end = p->down ? -lo : hi;
-        vmask outside = box_outside(&p->in_frame.side[0], node, p->axis[0], k, i) |
-                        box_outside(&p->in_frame.side[1], node, p->axis[1], k, i) |
-                        v_less(v_all(p->in_frame.far), begin) |
-                        v_less(end, v_all(p->near_in_frame));
-        v_store_floats(enter + i, begin);
-        touched |= v_bits(v_not(outside)) << i;
+    int k = p->axis[2];
+    float sign = p->down ? -1 : 1;
+    for (int i = 0; i < WIDE; i += FLOATS) {
+        vfloat begin = sign * f_load(node->plane[p->down][k] + i);
+        vfloat end = sign * f_load(node->plane[!p->down][k] + i);
+        f_store(enter + i, begin);
+        touched |=
+            (boxes_touched(&p->in_frame[0], node, p->axis[0], k, i) &
+             boxes_touched(&p->in_frame[1], node, p->axis[1], k, i) &
+             f_at_most(begin, f_all(p->far_in_frame)) & f_at_most(f_all(p->near_in_frame), end))
+            << i;
     }
     return touched;
 }
@@ -420,30 +481,40 @@ static inline unsigned touched_triangles(const struct pyramid *y, const struct v
     return v_bits(v_not(outside));
 }
 
-static void find_aspects(const struct packet *p, const struct triangle_block *block,
-                         struct aspects *seen)
+/* Triangles that begin less far from the apex than this are met by all parts. */
+static inline float near_apex(const struct packet *p)
 {
+    return (float)(NEAR_APEX * p->padding);
+}
+
+/* Returns the triangles that any part may overlap. */
+static inline unsigned find_aspects(const struct packet *p, const struct triangle_block *block,
+                                    struct aspects *seen)
+{
+    unsigned overlapping = 0;
     for (int i = 0; i < WIDE; i += FLOATS) {
-        vfloat way[3], least = f_all(INFINITY), most = f_all(-INFINITY);
+        vfloat way[3];
         for (int v = 0; v < 3; v++)
             way[v] = f_difference(block->corner[v][p->axis[2]] + i, p->apex[2]);
-        for (int v = 0; v < 3; v++) {
-            least = f_min(way[v], least);
-            most = f_max(way[v], most);
-        }
-        f_store(seen->way + i, p->ahead ? least : -most);
+        vfloat nearest =
+            p->ahead ? f_min(f_min(way[0], way[1]), way[2]) : -f_max(f_max(way[0], way[1]), way[2]);
+        f_store(seen->way + i, nearest);
+        unsigned over = f_at_most(nearest, f_all(p->outline.way));
         for (int side = 0; side < 2; side++) {
-            least = f_all(INFINITY), most = f_all(-INFINITY);
-            for (int v = 0; v < 3; v++) {
-                const double *x = block->corner[v][p->axis[side]] + i;
-                vfloat slope = f_difference(x, p->apex[side]) / way[v];
-                least = f_min(slope, least);
-                most = f_max(slope, most);
-            }
+            vfloat slope[3];
+            for (int v = 0; v < 3; v++)
+                slope[v] =
+                    f_difference(block->corner[v][p->axis[side]] + i, p->apex[side]) / way[v];
+            vfloat least = f_min(f_min(slope[0], slope[1]), slope[2]);
+            vfloat most = f_max(f_max(slope[0], slope[1]), slope[2]);
             f_store(seen->least[side] + i, least);
             f_store(seen->most[side] + i, most);
+            over &= f_at_most(least, f_all(p->outline.most[side])) &
+                    f_at_most(f_all(p->outline.least[side]), most);
         }
+        overlapping |= (over | f_at_most(nearest, f_all(near_apex(p)))) << i;
     }
+    return overlapping;
 }
 
 /* The parts (bit j: part j) that a triangle overlaps. */
@@ -451,7 +522,7 @@ static inline unsigned overlapped_parts(const struct packet *p, const struct asp
 {
     const struct aspects *parts = &p->aspects;
     unsigned overlapped = 0;
-    if (seen->way[i] <= (float)(NEAR_APEX * p->padding))
+    if (seen->way[i] <= near_apex(p))
         return ALL_PARTS;
     for (int j = 0; j < PARTS; j += FLOATS) {
         unsigned part = f_at_most(f_all(seen->way[i]), f_load(parts->way + j));
@@ -463,6 +534,16 @@ static inline unsigned overlapped_parts(const struct packet *p, const struct asp
     return overlapped;
 }
 
+/* A block's triangle against parts of the rays; returns those that met it. */
+static inline unsigned meet_in_block(struct packet *p, const struct triangle_block *block, int i,
+                                     unsigned parts)
+{
+    struct vec3 corner[3];
+    for (int v = 0; v < 3; v++)
+        corner[v] = vec3(block->corner[v][0][i], block->corner[v][1][i], block->corner[v][2][i]);
+    return meet_triangle(p->frames, block->target[i], corner, parts);
+}
+
 /* Returns the parts that met something. */
 static unsigned meet_seen_block(struct packet *p, const struct triangle_block *block,
                                 unsigned count)
@@ -471,11 +552,12 @@ static unsigned meet_seen_block(struct packet *p, const struct triangle_block *b
     unsigned met = 0;
     if (!p->parted)
         make_aspects(p);
-    find_aspects(p, block, &seen);
-    for (unsigned i = 0; i < count; i++) {
-        unsigned parts = overlapped_parts(p, &seen, (int)i) & parts_of_rays(p->frames);
+    unsigned overlapping = find_aspects(p, block, &seen) & ((1u << count) - 1);
+    for (; overlapping; overlapping &= overlapping - 1) {
+        int i = __builtin_ctz(overlapping);
+        unsigned parts = overlapped_parts(p, &seen, i) & parts_of_rays(p->frames);
         if (parts)
-            met |= meet_triangle(p->frames, block->target[i], parts);
+            met |= meet_in_block(p, block, i, parts);
     }
     return met;
 }
@@ -499,7 +581,7 @@ static unsigned meet_block(struct packet *p, const struct triangle_block *block,
     }
     for (touched &= (1u << count) - 1; touched; touched &= touched - 1) {
         int i = __builtin_ctz(touched);
-        met |= meet_triangle(p->frames, block->target[i], parts_of[i]);
+        met |= meet_in_block(p, block, i, parts_of[i]);
     }
     return met;
 }
@@ -537,10 +619,14 @@ static bool walk_packet(struct packet *p)
     struct wide_pending stack[WIDE_STACK], *top = stack;
     alignas(32) float enter[WIDE];
     *top++ = (struct wide_pending){&WIDE_ROOT, -INFINITY};
+    unsigned met = 0; /* parts that know not yet how far they go */
     while (top > stack) {
+        if (met)
+            find_farthest(p, met);
+        met = 0;
         top--;
         struct wide_child at = *top->child;
-        if (top->enter > p->in_frame.far)
+        if (top->enter > p->far_in_frame)
             continue;
         if (at.kind == WIDE_NODE) {
             const struct wide_node *node = &wide->nodes[at.first];
@@ -549,13 +635,11 @@ static bool walk_packet(struct packet *p)
             const struct triangle_block *block = &wide->blocks[at.first];
             if (p->any && ++leaves > LEAVES_LIMIT)
                 return false;
-            unsigned met =
+            met =
                 p->has_apex ? meet_seen_block(p, block, at.count) : meet_block(p, block, at.count);
-            if (met)
-                find_farthest(p, met);
         } else if (at.count > 0) {
             meet_run(p, at);
-            find_farthest(p, parts_of_rays(p->frames));
+            met = parts_of_rays(p->frames);
         }
     }
     return true;

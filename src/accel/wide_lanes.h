@@ -26,6 +26,11 @@ static inline float float_above(double x)
     return f + (fabsf(f) * 0x1p-23f + FLT_MIN);
 }
 
+static inline float float_below(double x)
+{
+    return -float_above(-x);
+}
+
 /* Floats above x, and by what f_bound of planes and factors rounds. */
 static inline vfour four_above(vquad x, vfour factors)
 {

@@ -128,6 +128,23 @@ static inline unsigned f_at_most(vfloat a, vfloat b)
 
 #endif
 
+/* Of eight. */
+static inline float f_least(const float *p)
+{
+    float least = p[0];
+    for (int i = 1; i < 8; i++)
+        least = p[i] < least ? p[i] : least;
+    return least;
+}
+
+static inline float f_most(const float *p)
+{
+    float most = p[0];
+    for (int i = 1; i < 8; i++)
+        most = p[i] > most ? p[i] : most;
+    return most;
+}
+
 /* a b + c.  Beside one rounding of that, which is relative to it, products of |a| <= 1 are off by
  * no more than this times |b|. */
 static inline vfloat f_bound(vfloat a, vfloat b, vfloat c)
