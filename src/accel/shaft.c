@@ -33,7 +33,11 @@ static void make_ready(struct shaft *s, struct vec3 lo_growth, struct vec3 hi_gr
 
 struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box directions)
 {
-    struct shaft s = {.start = origins, .t_max = INFINITY, .endless = true};
+    struct shaft s;
+    s.start = s.end = origins;
+    s.t_max = INFINITY;
+    s.endless = true;
+    s.spawned = false;
     s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(origins));
     make_ready(&s, directions.lo, directions.hi);
     return s;
@@ -45,7 +49,12 @@ struct shaft shaft_between(const struct accel *a, struct box p, struct box q, do
     double on = t_max - 1;
     struct box end = {vec3_mad(vec3_scale(q.lo, t_max), -on, p.hi),
                       vec3_mad(vec3_scale(q.hi, t_max), -on, p.lo)};
-    struct shaft s = {.start = p, .end = box_join(end, q), .t_max = 1, .spawned = true};
+    struct shaft s;
+    s.start = p;
+    s.end = box_join(end, q);
+    s.t_max = 1;
+    s.endless = false;
+    s.spawned = true;
     s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(p) + box_reach(s.end));
     make_ready(&s, vec3_sub(s.end.lo, p.lo), vec3_sub(s.end.hi, p.hi));
     return s;
@@ -120,9 +129,19 @@ static bool touches_cylinder(const struct shaft *s, const struct cylinder *c)
     return false;
 }
 
+/* Of spheres without a detour. */
+static struct box bounds_of(const struct geometry *g, struct target target)
+{
+    if (target.kind != PRIM_SPHERE)
+        return geometry_prim_bounds(g, target.prim);
+    const struct sphere *s = &g->spheres.at[target.index];
+    return (struct box){vec3_sub(s->center, vec3_all(s->radius)),
+                        vec3_add(s->center, vec3_all(s->radius))};
+}
+
 bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target)
 {
-    if (!touches(s, geometry_prim_bounds(a->geometry, target.prim)))
+    if (!touches(s, bounds_of(a->geometry, target)))
         return false;
     if (target.kind == PRIM_CYLINDER)
         return touches_cylinder(s, &a->geometry->cylinders.at[target.index]);

@@ -41,6 +41,12 @@ static inline void fill(double *to, uint32_t first, uint32_t end, double value)
         to[i] = value;
 }
 
+/* What a vector that starts within the first n reaches behind them. */
+static inline void fill_rest(double *to, uint32_t n, double value)
+{
+    fill(to + n, 0, BATCH_ROOM - BATCH, value);
+}
+
 static inline void vec3_fill(struct vec3_batch *to, uint32_t first, uint32_t end, struct vec3 value)
 {
     fill(to->x, first, end, value.x);

@@ -16,7 +16,7 @@ static void classic_add(struct worker *w, size_t k, struct box box)
 {
     const struct tracer *t = w->tracer;
     double shares[BATCH_ROOM];
-    fill(shares, w->points.n, BATCH_ROOM, 0);
+    fill_rest(shares, w->points.n, 0);
     lamp_shares(w, &t->lamps[k], box, shares);
     t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
 }

@@ -233,7 +233,7 @@ static void modern_add(struct worker *w, size_t k, struct box box)
         add_area(w, lamp, box);
         return;
     }
-    fill(shares, w->points.n, BATCH_ROOM, 0);
+    fill_rest(shares, w->points.n, 0);
     lamp_shares(w, lamp, box, shares);
     w->tracer->kernels->add_modern(&w->points, lamp->light, shares, &w->light);
 }

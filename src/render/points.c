@@ -300,8 +300,8 @@ static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, u
         v[n] = t->v[i];
         which[n++] = t->point[i];
     }
-    fill(u, n, BATCH_ROOM, 0);
-    fill(v, n, BATCH_ROOM, 0);
+    fill_rest(u, n, 0);
+    fill_rest(v, n, 0);
     tracer->kernels->texels(&tracer->scene->textures.at[texture], u, v, n, &texels);
     for (uint32_t i = 0; i < n; i++)
         vec3_put(out, which[i], vec3_get(&texels, i));
@@ -365,11 +365,28 @@ static void paint(struct worker *w)
 {
     struct vec3_batch texels;
     fetch_texels(w, &w->paints, &texels);
+    w->points.filled_with = NULL;
     for (uint32_t i = 0; i < w->paints.n; i++) {
         uint32_t k = w->paints.point[i];
         vec3_put(&w->points.diffuse, k,
                  vec3_mul(vec3_get(&texels, k), vec3_get(&w->points.diffuse, k)));
     }
+}
+
+/* Once more for all points, most often. */
+static void fill_finish(const struct tracer *t, struct shade_batch *points, uint32_t first,
+                        uint32_t end, const struct finish *finish)
+{
+    if (first == 0 && points->filled_with == finish && points->filled >= end)
+        return;
+    for (uint32_t k = first; k < end; k++)
+        points->finish[k] = finish;
+    for (uint32_t k = first; k < end; k++)
+        points->power[k] = finish->power;
+    t->kernels->fill(&points->diffuse, first, end, finish->material->diffuse);
+    t->kernels->fill(&points->specular, first, end, finish->specular);
+    points->filled_with = first == 0 ? finish : NULL;
+    points->filled = end;
 }
 
 /* The material of points first to end, which lie on one surface. */
@@ -379,13 +396,7 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
     struct shade_batch *points = &w->points;
     const struct surface *surface = &t->scene->surfaces.at[points->surface[first]];
     const struct finish *finish = &t->finishes[surface->material];
-    struct vec3 diffuse = finish->material->diffuse;
-    for (uint32_t k = first; k < end; k++)
-        points->finish[k] = finish;
-    for (uint32_t k = first; k < end; k++)
-        points->power[k] = finish->power;
-    t->kernels->fill(&points->diffuse, first, end, diffuse);
-    t->kernels->fill(&points->specular, first, end, finish->specular);
+    fill_finish(t, points, first, end, finish);
     points->any_uneven |= finish->uneven;
     points->any_glowing |= finish->glows;
     points->any_bounces |= finish->bounces;

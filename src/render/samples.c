@@ -43,8 +43,8 @@ const struct ray_batch *rays_through(struct worker *w, double *x, double *y, uin
 {
     const struct tracer *t = w->tracer;
     struct ray_batch *rays = &w->camera_rays;
-    fill(x, n, BATCH_ROOM, 0);
-    fill(y, n, BATCH_ROOM, 0);
+    fill_rest(x, n, 0);
+    fill_rest(y, n, 0);
     rays->n = n;
     w->lookout.known = false;
     if (!t->lens.parallel)
@@ -133,9 +133,10 @@ const struct ray_batch *camera_rays(struct worker *w, const struct tile *tile,
     const struct tracer *t = w->tracer;
     const struct render_options *o = t->options;
     const struct camera *camera = &t->scene->camera;
-    double columns[BATCH_ROOM] = {0}, rows[TILE], upwards[TILE];
+    double columns[TILE + BATCH_ROOM - BATCH], rows[TILE], upwards[TILE];
     uint32_t width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
     camera_places(camera, tile->x0, width, sample->x, o->width, columns);
+    fill_rest(columns, width, 0);
     camera_places(camera, o->height - tile->y1, height, sample->y, o->height, upwards);
     for (uint32_t j = 0; j < height; j++)
         rows[j] = upwards[height - 1 - j];

@@ -219,7 +219,8 @@ static uint64_t find_shadowed(struct worker *w, const struct lamp *lamp,
 
 void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares)
 {
-    struct target_list list = {.usable = false};
+    struct target_list list;
+    list.usable = false;
     if (lamp->light->kind == LIGHT_AREA) {
         area_shares(w, lamp, box, shares);
         return;

@@ -148,6 +148,9 @@ struct shade_batch {
     alignas(64) double t[BATCH_ROOM]; /* distance along it */
     bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
+    /* What `finish`, `power`, `diffuse` and `specular` of so many points are still filled with. */
+    const struct finish *filled_with;
+    uint32_t filled;
     bool any_uneven;  /* some highlight is not multiplied out, some metal is textured */
     bool any_glowing; /* some is emissive */
     bool any_bounces;

@@ -442,7 +442,10 @@ START_TEST(packed_pixels_are_those_of_single_colours)
             continue;
         memset(q->bytes, 0, 3 * (BATCH + 2));
         render_kernels_of((enum isa)isa)->pack(q, &colours, BATCH, pixels);
-        picture_set_row(q, 1, 0, pixels, BATCH);
+        uint32_t part = 1 + (uint32_t)_i % 9;
+        picture_set_row(q, 1, 0, pixels, part);
+        ck_assert_int_eq(q->bytes[3 * (1 + part)], 0);
+        picture_set_row(q, 1 + part, 0, pixels + part, BATCH - part);
         ck_assert_int_eq(memcmp(p->bytes, q->bytes, 3 * (BATCH + 2)), 0);
     }
     picture_free(p);
