@@ -225,25 +225,22 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
     }
 }
 
-/* Two of them, and two bytes of what comes next. */
-static void put_pixels(uint8_t *to, uint32_t first, uint32_t second)
+/* Its fourth byte is the next pixel's first. */
+static void put_pixel(uint8_t *to, uint32_t pixel)
 {
-    uint64_t both = (first & 0xffffff) | (uint64_t)second << 24;
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    both = __builtin_bswap64(both);
+    pixel = __builtin_bswap32(pixel);
 #endif
-    memcpy(to, &both, sizeof both);
+    memcpy(to, &pixel, sizeof pixel);
 }
 
 void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n)
 {
     uint8_t *to = p->bytes + ((size_t)y * p->width + x) * 3;
-    uint32_t i = 0;
-    for (; i + 2 < n; i += 2, to += 6)
-        put_pixels(to, pixels[i], pixels[i + 1]);
-    for (; i < n; i++)
-        for (int channel = 0; channel < 3; channel++)
-            *to++ = (uint8_t)(pixels[i] >> 8 * channel);
+    for (uint32_t i = 0; i + 1 < n; i++, to += 3)
+        put_pixel(to, pixels[i]);
+    for (int i = 0; i < 3 && n > 0; i++)
+        to[i] = (uint8_t)(pixels[n - 1] >> 8 * i);
 }
 
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])

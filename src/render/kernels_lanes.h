@@ -191,8 +191,18 @@ static void aim_at(const struct light *light, const struct vec3_batch *from, con
 
 /* ---- classic light --------------------------------------------------------------------------- */
 
-static vreal whole_powers(vreal x, vint n)
+/* same: n is the same in all lanes. */
+static inline vreal whole_powers(vreal x, vint n, bool same)
 {
+    uint64_t power = (uint64_t)n[0];
+    if (same) {
+        vreal product = power & 1 ? x : v_all(1);
+        while (power >>= 1) {
+            x *= x;
+            product = power & 1 ? product * x : product;
+        }
+        return product;
+    }
     vreal result = v_select(v_odd(n), x, v_all(1));
     while (v_any_int(n >>= 1)) {
         x *= x;
@@ -233,7 +243,7 @@ static struct vvec3 direct_light(const struct shade_batch *points, uint32_t i,
     vreal mirrored =
         v3_dot(v3_load(&points->incoming, i), to_light) - 2 * cosine * v_load(points->facing + i);
     struct vvec3 lit = v3_scale(v3_load(&points->diffuse, i), cosine);
-    vreal highlight = whole_powers(mirrored, v_load_int(points->power + i));
+    vreal highlight = whole_powers(mirrored, v_load_int(points->power + i), points->one_surface);
     if (points->any_uneven)
         uneven_lanes(points, i, cosine, mirrored, &lit, &highlight);
     return v3_mad(lit, highlight, v3_load(&points->specular, i));

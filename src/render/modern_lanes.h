@@ -14,6 +14,7 @@ struct vseen {
     const struct finish *const *finish; /* of lane k: finish[step * k] */
     uint32_t step, lanes;               /* lanes that are points */
     bool squared;                       /* all highlights are multiplied out */
+    bool alike;                         /* to the same power */
 };
 
 static inline void turn_to_eye(struct vseen *s, struct vvec3 geometric)
@@ -35,7 +36,8 @@ static inline struct vseen seen_points(const struct shade_batch *b, uint32_t i)
                       .finish = b->finish + i,
                       .step = 1,
                       .lanes = b->n - i < LANES ? b->n - i : LANES,
-                      .squared = !b->any_uneven};
+                      .squared = !b->any_uneven,
+                      .alike = b->one_surface};
     turn_to_eye(&s, v3_load(geometric_normals(b), i));
     return s;
 }
@@ -52,7 +54,8 @@ static inline struct vseen seen_point(const struct shade_batch *b, uint32_t k)
                       .power = (vint){0} + b->power[k],
                       .finish = b->finish + k,
                       .lanes = LANES,
-                      .squared = b->finish[k]->squared};
+                      .squared = b->finish[k]->squared,
+                      .alike = true};
     turn_to_eye(&s, v3_all(vec3_get(geometric_normals(b), k)));
     return s;
 }
@@ -66,7 +69,7 @@ static inline vreal terminators(vreal cosine, vreal smooth_cosine, vreal between
 
 static vreal highlights(const struct vseen *s, vreal mirrored, vmask wanted)
 {
-    vreal highlight = whole_powers(mirrored, s->power);
+    vreal highlight = whole_powers(mirrored, s->power, s->alike);
     unsigned lanes = s->squared ? 0 : v_bits(wanted) & ((1u << s->lanes) - 1);
     for (; lanes; lanes &= lanes - 1) {
         int k = __builtin_ctz(lanes);

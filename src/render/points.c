@@ -68,13 +68,14 @@ static uint64_t meet_crossed_surfaces(struct worker *w, const struct ray_batch *
 
 /* ---- what they lie on ------------------------------------------------------------------------ */
 
+/* Or all hit nothing. */
 static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
 {
     uint64_t number[BATCH], differing = 0; /* as bits, which are compared side by side */
     memcpy(number, hits->prim, n * sizeof *number);
     for (uint32_t i = 1; i < n; i++)
         differing |= number[i] ^ number[0];
-    return differing == 0 && hits->prim[0] != PRIM_NONE;
+    return differing == 0;
 }
 
 /* Those of points that all lie on one primitive, as most tiles' do. */
@@ -438,7 +439,10 @@ void find_points(struct worker *w, const struct ray_batch *rays, const struct pa
     }
     bundle_closest(&t->accel, t->bundles, rays, list, &w->hits);
     uint64_t inside = meet_crossed_surfaces(w, rays, paths);
-    if (all_hit_the_same(&w->hits, rays->n))
+    bool same = all_hit_the_same(&w->hits, rays->n);
+    if (same && w->hits.prim[0] == PRIM_NONE)
+        return;
+    if (same)
         note_same(w, rays->n);
     else
         note_any(w, rays->n);
