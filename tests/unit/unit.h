@@ -4,8 +4,8 @@
 
 #include <check.h>
 
-/* Under a sanitizer less is tried of what takes long. */
-#ifdef __SANITIZE_ADDRESS__
+/* Under a sanitizer or valgrind less is tried of what takes long. */
+#if defined __SANITIZE_ADDRESS__ || defined FEW_TRIES
 #define SANITIZED(less, all) (less)
 #else
 #define SANITIZED(less, all) (all)
