@@ -48,18 +48,36 @@ struct texel_places {
     vreal at, rest;
 };
 
+/* Whole numbers less multiples of the size, with their sign. */
+static inline vreal remainders(vreal at, double size)
+{
+    vmask outside = v_less(at, v_all(0)) | v_at_most(v_all(size), at);
+    return v_any(outside) ? v_select(outside, at - size * v_truncate(at / size), at) : at;
+}
+
+/* See centred_place. */
+static inline struct texel_places centred_places(vreal t, double size)
+{
+    vreal down = v_truncate(t), whole = v_select(v_less(t, down), down - 1, down);
+    vreal at = remainders(whole, size);
+    return (struct texel_places){v_select(v_less(at, v_all(0)), at + size, at), t - whole};
+}
+
 /* Lanes that are too large to have a fraction, or no numbers, are added to *strange. */
-static inline struct texel_places places_on(vreal u, double size, vmask *strange)
+static inline struct texel_places places_on(const struct texture *texture, vreal u, double size,
+                                            vmask *strange)
 {
     vreal zero = v_all(0), one = v_all(1), t = u * size, at = v_truncate(t), rest = v_abs(t - at);
+    if (texture->centred)
+        t -= texture->linear ? 0.5 : 0;
+    *strange |= v_not(v_less(v_abs(t), v_all(0x1p51)));
+    if (texture->centred)
+        return centred_places(t, size);
     vmask end = v_equal(u, one);
-    vmask outside = v_less(at, zero) | v_at_most(v_all(size), at);
-    if (v_any(outside))
-        at = v_select(outside, at - size * v_truncate(at / size), at);
+    at = remainders(at, size);
     vmask below = v_less(at, zero);
     at = v_select(below, at + size, at);
     rest = v_select(below, 1 - rest, rest);
-    *strange |= v_not(v_less(v_abs(t), v_all(0x1p51)));
     return (struct texel_places){v_select(end, v_all(size - 1), at), v_select(end, one, rest)};
 }
 
@@ -68,27 +86,36 @@ struct texel_corners {
     alignas(64) int32_t at[4][BATCH_ROOM];                      /* numbers in the image */
     alignas(64) double across[BATCH_ROOM], upwards[BATCH_ROOM]; /* the place between them */
     alignas(64) int32_t texel8[4][BATCH_ROOM];                  /* red in the low byte */
-    struct vec3_batch texel16[4];
+    struct vec3_batch texel16[4];                               /* decoded, if they are to be */
 };
 
-static void load_texels(const struct image *image, uint32_t n, int corners, struct texel_corners *c)
+static void load_texels(const struct texture *texture, uint32_t n, int corners,
+                        struct texel_corners *c)
 {
+    const struct image *image = texture->image;
+    const double *light = texture->decode;
     for (int k = 0; k < corners; k++) {
         for (uint32_t i = 0; i < n && image->data8; i++)
             c->texel8[k][i] = image_texel8(image, (size_t)c->at[k][i]);
         for (uint32_t i = 0; i < n && image->data16; i++) {
             const uint16_t *p = image->data16 + 3 * (size_t)c->at[k][i];
-            vec3_put(&c->texel16[k], i, vec3(p[0], p[1], p[2]));
+            vec3_put(&c->texel16[k], i,
+                     light ? vec3(light[p[0]], light[p[1]], light[p[2]]) : vec3(p[0], p[1], p[2]));
         }
     }
 }
 
-static inline struct vvec3 corner(const struct image *image, const struct texel_corners *c, int k,
-                                  uint32_t i)
+static inline struct vvec3 corner(const struct texture *texture, const struct texel_corners *c,
+                                  int k, uint32_t i)
 {
-    if (image->data16)
+    const double *light = texture->decode;
+    if (texture->image->data16)
         return v3_load(&c->texel16[k], i);
     vint32 texel = v_load_int32(c->texel8[k] + i);
+    if (light)
+        return (struct vvec3){v_gather(light, v_long(texel & 255)),
+                              v_gather(light, v_long(texel >> 8 & 255)),
+                              v_gather(light, v_long(texel >> 16 & 255))};
     return (struct vvec3){v_real(texel & 255), v_real(texel >> 8 & 255), v_real(texel >> 16 & 255)};
 }
 
@@ -98,16 +125,17 @@ static inline struct vvec3 v3_mix(struct vvec3 a, struct vvec3 b, vreal share_of
 }
 
 /* Returns a bit for each place that is none. */
-static uint64_t place_corners(const struct image *image, const double *u, const double *v,
+static uint64_t place_corners(const struct texture *texture, const double *u, const double *v,
                               uint32_t n, struct texel_corners *c)
 {
+    const struct image *image = texture->image;
     double width = image->width, height = image->height;
     vreal zero = v_all(0);
     uint64_t strange = 0;
     for (uint32_t i = 0; i < n; i += LANES) {
         vmask none = v_less(zero, zero);
-        struct texel_places x = places_on(v_load(u + i), width, &none);
-        struct texel_places y = places_on(v_load(v + i), height, &none);
+        struct texel_places x = places_on(texture, v_load(u + i), width, &none);
+        struct texel_places y = places_on(texture, v_load(v + i), height, &none);
         strange |= (uint64_t)v_bits(none) << i;
         x.at = v_select(none, zero, x.at);
         y.at = v_select(none, zero, y.at);
@@ -130,23 +158,20 @@ static void texels(const struct texture *texture, const double *u, const double 
     const struct image *image = texture->image;
     double full = image->data8 ? 255 : 65535;
     struct texel_corners c;
-    if (texture->centred) {
-        render_plain.texels(texture, u, v, n, out);
-        return;
-    }
-    uint64_t strange = place_corners(image, u, v, n, &c);
-    load_texels(image, n, texture->linear ? 4 : 1, &c);
+    uint64_t strange = place_corners(texture, u, v, n, &c);
+    load_texels(texture, n, texture->linear ? 4 : 1, &c);
     for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 t = corner(image, &c, 0, i);
+        struct vvec3 t = corner(texture, &c, 0, i);
         if (texture->linear) {
             vreal x = v_load(c.across + i);
-            t = v3_mix(v3_mix(t, corner(image, &c, 1, i), x),
-                       v3_mix(corner(image, &c, 2, i), corner(image, &c, 3, i), x),
+            t = v3_mix(v3_mix(t, corner(texture, &c, 1, i), x),
+                       v3_mix(corner(texture, &c, 2, i), corner(texture, &c, 3, i), x),
                        v_load(c.upwards + i));
         }
-        v3_store(out, i,
-                 (struct vvec3){v_quotient(t.x, full, 1 / full), v_quotient(t.y, full, 1 / full),
-                                v_quotient(t.z, full, 1 / full)});
+        if (!texture->decode)
+            t = (struct vvec3){v_quotient(t.x, full, 1 / full), v_quotient(t.y, full, 1 / full),
+                               v_quotient(t.z, full, 1 / full)};
+        v3_store(out, i, t);
     }
     for (; strange; strange &= strange - 1) {
         uint32_t k = (uint32_t)__builtin_ctzll(strange);

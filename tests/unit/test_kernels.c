@@ -143,7 +143,8 @@ static double coordinate_at(uint64_t run, uint32_t i, uint64_t what)
     return i % 3 == 0 ? strange[(size_t)(x * STRANGE)] : 8 * (x - 0.5);
 }
 
-/* Bit 0: 16 bits a channel; bit 1: nearest; bit 2: not whole vectors. */
+/* Bit 0: 16 bits a channel; bit 1: nearest; bit 2: not whole vectors; bit 3: modern; bit 4:
+ * decoded. */
 START_TEST(texels_are_those_of_single_places)
 {
     uint64_t run = (uint64_t)_i;
@@ -154,7 +155,13 @@ START_TEST(texels_are_those_of_single_places)
         else
             image->data16[i] = (uint16_t)(9973 * i);
     }
-    struct texture texture = {.image = image, .linear = !(run & 2)};
+    double *decode = mem_alloc(65536, sizeof *decode);
+    for (uint32_t i = 0; i < 65536; i++)
+        decode[i] = sqrt(i);
+    struct texture texture = {.image = image,
+                              .linear = !(run & 2),
+                              .centred = run & 8,
+                              .decode = run & 16 ? decode : NULL};
     double u[BATCH_ROOM] = {0}, v[BATCH_ROOM] = {0};
     uint32_t n = run & 4 ? 13 : BATCH;
     struct vec3_batch expected, texels;
@@ -169,6 +176,7 @@ START_TEST(texels_are_those_of_single_places)
         render_kernels_of((enum isa)isa)->texels(&texture, u, v, n, &texels);
         check_same_vectors(&texels, &expected, n);
     }
+    free(decode);
     image_free(image);
 }
 END_TEST
@@ -542,7 +550,7 @@ Suite *kernels_suite(void)
     Suite *s = suite_create("kernels");
     TCase *c = tcase_create("kernels");
     tcase_add_loop_test(c, bundles_meet_what_single_rays_meet, 0, 64);
-    tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 8);
+    tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 64);
     tcase_add_test(c, bounds_hold_all_points);
     tcase_add_loop_test(c, modern_light_is_that_of_single_points, 0, 16);
     tcase_add_loop_test(c, who_faces_away_gets_no_light, 0, 16);
