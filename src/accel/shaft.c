@@ -192,14 +192,39 @@ static struct shaft shaft_in_frame(const struct shaft *s, const struct tree_fram
     return inner;
 }
 
-static bool touches_child(const struct shaft *inner, const struct wide_node *node, int i)
+/* When the shaft's bound, which starts at `from`, passes each of the planes: from then on it
+ * touches their boxes, or no longer. */
+static void clip_to_planes(const float planes[WIDE], double from, double inverse, bool ends,
+                           double start[WIDE], double end[WIDE])
 {
-    double lo[3], hi[3];
-    for (int axis = 0; axis < 3; axis++) {
-        lo[axis] = node->plane[0][axis][i];
-        hi[axis] = node->plane[1][axis][i];
+    double at[WIDE];
+    for (int i = 0; i < WIDE; i++)
+        at[i] = (planes[i] - from) * inverse;
+    if (ends)
+        for (int i = 0; i < WIDE; i++)
+            end[i] = at[i] < end[i] ? at[i] : end[i];
+    else
+        for (int i = 0; i < WIDE; i++)
+            start[i] = at[i] > start[i] ? at[i] : start[i];
+}
+
+/* As touches_box for all children.  Bit i: child i. */
+static unsigned touched_children(const struct shaft *s, const struct wide_node *node)
+{
+    double start[WIDE], end[WIDE];
+    unsigned touched = 0;
+    for (int i = 0; i < WIDE; i++) {
+        start[i] = 0;
+        end[i] = s->t_max;
     }
-    return touches_box(inner, lo, hi);
+    for (int axis = 0; axis < 3; axis++) {
+        const double lo = s->lo_inverse[axis], hi = s->hi_inverse[axis];
+        clip_to_planes(node->plane[1][axis], s->lo[axis], lo, lo > 0, start, end);
+        clip_to_planes(node->plane[0][axis], s->hi[axis], hi, !(hi > 0), start, end);
+    }
+    for (int i = 0; i < WIDE; i++)
+        touched |= (unsigned)(start[i] <= end[i]) << i;
+    return touched;
 }
 
 static bool add_leaf(const struct accel *a, const struct shaft *s, struct wide_child leaf,
@@ -213,15 +238,13 @@ static bool add_leaf(const struct accel *a, const struct shaft *s, struct wide_c
 static bool add_wide(const struct accel *a, const struct shaft *s, struct target_list *list)
 {
     struct shaft inner = shaft_in_frame(s, &a->wide->frame);
-    uint32_t stack[WIDE_STACK] = {0};
-    int depth = 1;
+    uint32_t stack[WIDE_STACK];
+    int depth = 0;
+    stack[depth++] = 0;
     while (depth > 0) {
         const struct wide_node *node = &a->wide->nodes[stack[--depth]];
-        for (int i = 0; i < WIDE; i++) {
-            struct wide_child child = node->child[i];
-            bool there = child.kind == WIDE_NODE || child.count > 0;
-            if (!there || !touches_child(&inner, node, i))
-                continue;
+        for (unsigned left = touched_children(&inner, node); left; left &= left - 1) {
+            struct wide_child child = node->child[__builtin_ctz(left)];
             if (child.kind == WIDE_NODE)
                 stack[depth++] = child.first;
             else if (!add_leaf(a, s, child, list))
