@@ -159,7 +159,7 @@ static void texels(const struct texture *texture, const double *u, const double 
     double full = image->data8 ? 255 : 65535;
     struct texel_corners c;
     uint64_t strange = place_corners(texture, u, v, n, &c);
-    load_texels(texture, n, texture->linear ? 4 : 1, &c);
+    load_texels(texture, (n + LANES - 1) / LANES * LANES, texture->linear ? 4 : 1, &c);
     for (uint32_t i = 0; i < n; i += LANES) {
         struct vvec3 t = corner(texture, &c, 0, i);
         if (texture->linear) {
