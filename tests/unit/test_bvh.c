@@ -504,8 +504,8 @@ START_TEST(closed_meshes_are_tight)
 }
 END_TEST
 
-/* Rays from the eye to places near each other, or from there to a lamp, all one way, or every way.
- */
+/* Rays from the eye to places near each other, or from there to a lamp, all one way, every way, or
+ * longest along an axis that they run both ways. */
 static uint32_t some_batch(const struct trees *trees, struct vec3 at, double size, struct ray *rays)
 {
     const struct geometry *g = trees->geometry;
@@ -513,7 +513,7 @@ static uint32_t some_batch(const struct trees *trees, struct vec3 at, double siz
     struct vec3 eye = vec3_add(at, random_vector(40 * size)), way = random_vector(1);
     struct vec3 lamp = vec3_add(at, random_vector((below(3) ? 40 : 1) * size));
     double spread = below(3) ? size * uniform(0, 3) : 0, reach = below(2) ? 1 : 1 - 0x1p-32;
-    uint32_t kind = below(5), n = 0, wanted = 4 + below(BATCH - 3);
+    uint32_t kind = below(6), n = 0, wanted = 4 + below(BATCH - 3);
     bool strange = below(10) == 0;
     for (uint32_t i = 0; i < 3 * BATCH && n < wanted; i++) {
         struct vec3 to = vec3_add(below(3) ? v[0] : v[below(20)], random_vector(spread)), normal;
@@ -534,6 +534,8 @@ static uint32_t some_batch(const struct trees *trees, struct vec3 at, double siz
                                         : vec3_add(way, random_vector(kind == 3 ? 0.2 : 2));
             ray.t_max = kind == 1 ? reach : RAY_UNBOUNDED;
         }
+        if (kind == 5)
+            ray.direction = vec3(below(2) ? 1 : -1, uniform(0.85, 0.99), uniform(-0.5, 0.5));
         if (strange)
             ray.direction = strange_direction(ray.direction);
         rays[n++] = ray;
