@@ -260,6 +260,7 @@ START_TEST(no_option_changes_a_bit)
         if (isa_available(o.isa))
             check_same(&s, &o, expected);
     }
+    o.isa = isa_best();
     o.no_skip = NO_SKIP_ALL;
     check_same(&s, &o, expected);
     o.brute_force = true;
