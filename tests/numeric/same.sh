@@ -70,14 +70,17 @@ check_scene()
     else
         compare whole other -t 7 --no-skip
     fi
-    if [ -z "$full" ] && [ -z "${scene##*/examples/*}" ]; then
-        # the slowest scenes: without the tree only a few pixels, instruction sets in the long run
-        local width=8 height=6
+    if [ -n "${scene##*/examples/*}" ]; then
+        compare whole other --accel none
+    else
+        # the slowest scenes: without the tree only a few pixels
+        local wide=$width high=$height
+        width=$((wide / 5)) height=$((high / 5))
         render small -t 1
         compare small other --accel none
-        width=40 height=30
-    else
-        compare whole other --accel none
+        width=$wide height=$high
+    fi
+    if [ -n "$full" ] || [ -n "${scene##*/examples/*}" ]; then # instruction sets of these in the long run
         for isa in $others; do
             compare whole other --isa "$isa"
         done
