@@ -30,11 +30,5 @@ bool take_whole(const struct opt_row *row, const char *text, struct options *out
 #define ENDS
 #define OPT(id, letter, name, argument, commands, taken, help) taken
 #include "cmd/opts.def"
-#undef OPT
-#undef FLAG
-#undef TEXT
-#undef WHOLE
-#undef OWN
-#undef ENDS
 
 #endif

@@ -17,7 +17,6 @@
 enum opt {
 #define OPT(id, ...) OPT_##id,
 #include "cmd/opts.def"
-#undef OPT
     OPTS
 };
 
@@ -43,12 +42,6 @@ static const struct opt_row rows[OPTS] = {
 #define OPT(id, letter, name, argument, commands, taken, help) \
     {letter, name, argument, commands, taken, help},
 #include "cmd/opts.def"
-#undef OPT
-#undef FLAG
-#undef TEXT
-#undef WHOLE
-#undef OWN
-#undef ENDS
 };
 
 static bool optional_argument(enum opt o)
