@@ -41,8 +41,13 @@ static inline unsigned parts_of_rays(const struct frame_batch *f)
 
 static void frames_for_spheres(struct frame_batch *f)
 {
-    for (uint32_t i = 0; i < f->n; i += LANES)
-        v_store(f->inverse_square + i, 1 / v_load(f->square + i));
+    for (uint32_t i = 0; i < f->n; i += LANES) {
+        vreal square = v_load(f->square + i), inverse = 2 - square;
+        vmask unit = v_at_most(v_abs(square - 1), v_all(UNIT_ROUNDING));
+        if (v_any(v_not(unit)))
+            inverse = v_select(unit, inverse, 1 / square);
+        v_store(f->inverse_square + i, inverse);
+    }
 }
 
 static void frames_for_triangles(struct frame_batch *f)
@@ -53,9 +58,9 @@ static void frames_for_triangles(struct frame_batch *f)
         struct vvec3 d = v3_load(&rays->direction, i);
         vreal x = v_abs(d.x), y = v_abs(d.y), z = v_abs(d.z);
         vmask along_x = v_less(y, x) & v_less(z, x), along_y = v_less(z, y) & v_not(along_x);
-        vreal by = v_select(along_x, d.x, v_select(along_y, d.y, d.z));
-        v_store(f->shear_x + i, v_select(along_x, d.y, v_select(along_y, d.z, d.x)) / by);
-        v_store(f->shear_y + i, v_select(along_x, d.z, v_select(along_y, d.x, d.y)) / by);
+        vreal inverse = 1 / v_select(along_x, d.x, v_select(along_y, d.y, d.z));
+        v_store(f->shear_x + i, v_select(along_x, d.y, v_select(along_y, d.z, d.x)) * inverse);
+        v_store(f->shear_y + i, v_select(along_x, d.z, v_select(along_y, d.x, d.y)) * inverse);
         v_store(f->axis_of + i, v_select(along_x, v_all(0), v_select(along_y, v_all(1), v_all(2))));
         unsigned used = rays->n - i < LANES ? (1u << (rays->n - i)) - 1 : (1u << LANES) - 1;
         any_x |= used & v_bits(along_x);

@@ -225,24 +225,6 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour)
     }
 }
 
-/* Its fourth byte is the next pixel's first. */
-static void put_pixel(uint8_t *to, uint32_t pixel)
-{
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    pixel = __builtin_bswap32(pixel);
-#endif
-    memcpy(to, &pixel, sizeof pixel);
-}
-
-void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n)
-{
-    uint8_t *to = p->bytes + ((size_t)y * p->width + x) * 3;
-    for (uint32_t i = 0; i + 1 < n; i++, to += 3)
-        put_pixel(to, pixels[i]);
-    for (int i = 0; i < 3 && n > 0; i++)
-        to[i] = (uint8_t)(pixels[n - 1] >> 8 * i);
-}
-
 struct image *image_decode(const void *bytes, size_t n, char reason[IMAGE_REASON_BYTES])
 {
     const struct signature *s = signature_of(bytes, n);

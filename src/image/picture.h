@@ -68,8 +68,16 @@ void picture_set(struct picture *p, uint32_t x, uint32_t y, struct vec3 colour);
 /* What a byte holds of a channel. */
 uint8_t picture_byte(const struct picture *p, double c);
 
-/* Stores n pixels in a row, from (x, y) on: red in the low byte, then green and blue. */
-void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint32_t *pixels, uint32_t n);
+/* Stores n pixels of three bytes in a row, from (x, y) on; tiles have 8 of them. */
+static inline void picture_set_row(struct picture *p, uint32_t x, uint32_t y, const uint8_t *pixels,
+                                   uint32_t n)
+{
+    uint8_t *to = p->bytes + ((size_t)y * p->width + x) * 3;
+    if (n == 8)
+        memcpy(to, pixels, 3 * 8);
+    else
+        memcpy(to, pixels, 3 * (size_t)n);
+}
 
 /* A decoded texture: RGB, 8 or 16 bits a channel (native byte order), grey spread to three
  * channels, palettes looked up, alpha dropped, gamma and profiles ignored. */

@@ -362,6 +362,23 @@ static inline bool v_any(vmask m)
 
 #endif
 
+/* The lowest three bytes of each, the lowest first; 4 LANES bytes may be written. */
+static inline void v_store_triples(uint8_t *p, vint32 a)
+{
+#if LANES_HAVE_FMA
+    const __m128i order = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
+    for (int i = 0; i < LANES / 4; i++) {
+        __m128i four;
+        memcpy(&four, (const char *)&a + i * sizeof four, sizeof four);
+        _mm_storeu_si128((__m128i *)(p + 12 * i), _mm_shuffle_epi8(four, order));
+    }
+#else
+    for (int i = 0; i < LANES; i++)
+        for (int byte = 0; byte < 3; byte++)
+            p[3 * i + byte] = (uint8_t)(a[i] >> 8 * byte);
+#endif
+}
+
 /* Lanes 0 to n. */
 static inline vmask v_first(uint32_t n)
 {

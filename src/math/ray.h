@@ -67,6 +67,9 @@ static inline bool hit_before(double t, uint32_t prim, const struct hit *best)
     return t > 0 && (t < best->t || (t == best->t && prim < best->prim));
 }
 
+/* Squares of unit vectors are no farther from 1, and the square of this is nothing beside 1. */
+#define UNIT_ROUNDING 0x1p-40
+
 /* What the tests of one ray against many primitives share. */
 struct ray_frame {
     double square;           /* of the direction's length */
@@ -77,6 +80,12 @@ struct ray_frame {
     int axis;                /* of the direction's largest component */
 };
 
+/* 1 / square, without a division for unit vectors, whose square is 1 but for rounding errors. */
+static inline double ray_inverse_square(double square)
+{
+    return fabs(square - 1) <= UNIT_ROUNDING ? 2 - square : 1 / square;
+}
+
 /* With the parts for spheres, for triangles, or both. */
 static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bool spheres,
                                   bool triangles)
@@ -85,7 +94,7 @@ static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bo
     f->square = vec3_dot(d, d);
     f->tolerance = ray->spawned ? SPAWN_TOLERANCE : 0;
     f->reach = ray->spawned ? vec3_largest(ray->origin) : 0;
-    f->inverse_square = spheres ? 1 / f->square : 0;
+    f->inverse_square = spheres ? ray_inverse_square(f->square) : 0;
     f->shear_x = f->shear_y = 0;
     f->axis = -1;
     if (!triangles)
@@ -93,8 +102,9 @@ static inline void ray_frame_init(struct ray_frame *f, const struct ray *ray, bo
     double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
     const double part[5] = {d.x, d.y, d.z, d.x, d.y};
     f->axis = x > y && x > z ? 0 : y > z ? 1 : 2;
-    f->shear_x = part[f->axis + 1] / part[f->axis];
-    f->shear_y = part[f->axis + 2] / part[f->axis];
+    double inverse = 1 / part[f->axis];
+    f->shear_x = part[f->axis + 1] * inverse;
+    f->shear_y = part[f->axis + 2] * inverse;
 }
 
 static inline struct ray_frame ray_frame_of(const struct ray *ray)

@@ -15,9 +15,8 @@ static struct box classic_begin(struct worker *w)
 static void classic_add(struct worker *w, size_t k, struct box box)
 {
     const struct tracer *t = w->tracer;
-    double shares[BATCH_ROOM];
-    fill_rest(shares, w->points.n, 0);
-    lamp_shares(w, &t->lamps[k], box, shares);
+    alignas(64) double room[BATCH_ROOM];
+    const double *shares = lamp_shares(w, &t->lamps[k], box, room);
     t->kernels->add_light(&w->points, &t->scene->lights.at[k], shares, &w->light);
 }
 
@@ -61,11 +60,7 @@ static bool reflect_all(const struct worker *w, struct level *level)
         return false;
     for (uint32_t k = 0; k < points->n; k++)
         o->parent[k] = k;
-    for (uint32_t k = 0; k < points->n; k++)
-        o->rays.from[k] = points->prim[k];
-    w->tracer->kernels->reflect(points, &o->rays.direction);
-    vec3_copy(&o->rays.origin, points->n, &points->p);
-    fill(o->rays.t_max, 0, points->n, RAY_UNBOUNDED);
+    w->tracer->kernels->reflect(points, &o->rays);
     o->rays.n = points->n;
     o->in_order = true;
     return true;
@@ -76,7 +71,7 @@ static bool reflect_all(const struct worker *w, struct level *level)
 static void classic_spawn(struct worker *w, struct level *level, const struct path *paths)
 {
     const struct shade_batch *points = &w->points;
-    struct vec3_batch mirrored;
+    struct ray_batch mirrored;
     if (reflect_all(w, level))
         return;
     w->tracer->kernels->reflect(points, &mirrored);
@@ -88,7 +83,7 @@ static void classic_spawn(struct worker *w, struct level *level, const struct pa
         struct vec3 reflected = vec3_mul(intensity, m->reflection);
         struct vec3 refracted = vec3_mul(intensity, m->refraction);
         if (!vec3_is_zero(reflected))
-            spawn_ray(&level->reflected, points, k, vec3_get(&mirrored, k), reflected);
+            spawn_ray(&level->reflected, points, k, vec3_get(&mirrored.direction, k), reflected);
         if (!vec3_is_zero(refracted))
             add_refraction(level, w->tracer->scene, points, k,
                            paths ? paths[points->ray[k]].index : 1, refracted);

@@ -22,7 +22,7 @@ static inline vint shapes_at(const struct hit_shapes *h, uint32_t i, uint32_t en
 static inline struct vvec3 places_along(const struct shade_batch *points, uint32_t i,
                                         struct vvec3 from)
 {
-    return v3_mad(from, v_load(points->t + i), v3_load(&points->incoming, i));
+    return v3_mad(from, v_load(points->t + i), v3_load(points->incoming, i));
 }
 
 struct vsphere {
@@ -148,10 +148,10 @@ static inline struct shear shear_of(struct vvec3 d)
 {
     vreal x = v_abs(d.x), y = v_abs(d.y), z = v_abs(d.z);
     vmask along_x = v_less(y, x) & v_less(z, x), along_y = v_less(z, y) & v_not(along_x);
-    vreal by = v_select(along_x, d.x, v_select(along_y, d.y, d.z));
+    vreal inverse = 1 / v_select(along_x, d.x, v_select(along_y, d.y, d.z));
     return (struct shear){along_x, along_y,
-                          v_select(along_x, d.y, v_select(along_y, d.z, d.x)) / by,
-                          v_select(along_x, d.z, v_select(along_y, d.x, d.y)) / by};
+                          v_select(along_x, d.y, v_select(along_y, d.z, d.x)) * inverse,
+                          v_select(along_x, d.z, v_select(along_y, d.x, d.y)) * inverse};
 }
 
 static inline struct vpoint2 sheared(struct vvec3 p, const struct shear *s)
@@ -173,7 +173,7 @@ static inline void weigh_corners(const struct geometry *g, const struct hit_shap
                                  struct shade_batch *points)
 {
     struct vvec3 o = v3_load(h->origin, i);
-    struct shear shear = shear_of(v3_load(&points->incoming, i));
+    struct shear shear = shear_of(v3_load(points->incoming, i));
     struct vpoint2 a = sheared(v3_sub(t->corner[0], o), &shear);
     struct vpoint2 b = sheared(v3_sub(t->corner[1], o), &shear);
     struct vpoint2 c = sheared(v3_sub(t->corner[2], o), &shear);
@@ -186,7 +186,7 @@ static inline void weigh_corners(const struct geometry *g, const struct hit_shap
         uint32_t k = i + (uint32_t)__builtin_ctz(left);
         struct hit hit = {.prim = points->prim[k]};
         struct ray ray = {.origin = vec3_get(h->origin, k),
-                          .direction = vec3_get(&points->incoming, k)};
+                          .direction = vec3_get(points->incoming, k)};
         geometry_weights(g, &ray, &hit);
         points->b1[k] = hit.b1;
         points->b2[k] = hit.b2;
@@ -266,7 +266,7 @@ static inline void bend_lanes(const struct scene *scene, const struct vtriangle 
     v3_store(&points->normal, i, v3_select(b.flipped, v3_neg(n), n));
     if (!points->curved)
         return;
-    vmask behind = v_less(zero, v3_dot(face, v3_load(&points->incoming, i)));
+    vmask behind = v_less(zero, v3_dot(face, v3_load(points->incoming, i)));
     struct vvec3 outwards = v3_select(behind, v3_neg(face), face);
     v3_store(&points->lifted, i, lifted(t, &b, weight, p, outwards));
     v3_store(&points->geometric, i, v3_select(b.flipped, v3_neg(face), face));

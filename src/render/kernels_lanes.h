@@ -197,7 +197,7 @@ static void face(struct shade_batch *points)
 {
     for (uint32_t i = 0; i < points->n; i += LANES)
         v_store(points->facing + i,
-                v3_dot(v3_load(&points->normal, i), v3_load(&points->incoming, i)));
+                v3_dot(v3_load(&points->normal, i), v3_load(points->incoming, i)));
 }
 
 static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
@@ -266,7 +266,7 @@ static struct vvec3 direct_light(const struct shade_batch *points, uint32_t i,
 {
     vreal cosine = v3_dot(v3_load(&points->normal, i), to_light);
     vreal mirrored =
-        v3_dot(v3_load(&points->incoming, i), to_light) - 2 * cosine * v_load(points->facing + i);
+        v3_dot(v3_load(points->incoming, i), to_light) - 2 * cosine * v_load(points->facing + i);
     struct vvec3 lit = v3_scale(v3_load(&points->diffuse, i), cosine);
     vreal highlight = whole_powers(mirrored, v_load_int(points->power + i), points->one_surface);
     if (points->any_uneven)
@@ -303,12 +303,14 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
 
 /* ---- the rest -------------------------------------------------------------------------------- */
 
-static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
+static void reflect(const struct shade_batch *points, struct ray_batch *rays)
 {
     for (uint32_t i = 0; i < points->n; i += LANES) {
-        struct vvec3 d = v3_load(&points->incoming, i), normal = v3_load(&points->normal, i);
+        struct vvec3 d = v3_load(points->incoming, i), normal = v3_load(&points->normal, i);
         d = v3_mad(d, -2 * v_load(points->facing + i), normal);
-        v3_store(directions, i, v3_normalize(d));
+        v3_store(&rays->direction, i, v3_normalize(d));
+        v3_store(&rays->origin, i, v3_load(&points->p, i));
+        v_store(rays->from + i, v_real(v_load_int32((const int32_t *)points->prim + i)));
     }
 }
 
@@ -324,6 +326,14 @@ static uint64_t weigh(const struct vec3_batch *intensity, struct vec3 mirrored, 
         nothing |= (uint64_t)v_bits(none) << i;
     }
     return ~nothing & UINT64_MAX >> (BATCH - n);
+}
+
+static void add_shares(const struct vec3_batch *weights, const struct vec3_batch *colours,
+                       uint32_t n, struct vec3_batch *sums)
+{
+    for (uint32_t i = 0; i < n; i += LANES)
+        v3_store(sums, i,
+                 v3_add(v3_load(sums, i), v3_mul(v3_load(weights, i), v3_load(colours, i))));
 }
 
 /* The last vector ends at the last element, over what another has seen. */
@@ -378,14 +388,14 @@ static inline vint32 bytes_of(const struct picture *out, double rounding, vreal 
 }
 
 static void pack(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
-                 uint32_t *pixels)
+                 uint8_t pixels[PACKED_ROOM])
 {
     double rounding = picture_rounding(out);
     for (uint32_t i = 0; i < n; i += LANES) {
         struct vvec3 c = v3_scale(v3_load(colours, i), v_all(out->gain));
         vint32 red = bytes_of(out, rounding, c.x), green = bytes_of(out, rounding, c.y);
         vint32 blue = bytes_of(out, rounding, c.z);
-        v_store_int32((int32_t *)pixels + i, red | green << 8 | blue << 16);
+        v_store_triples(pixels + 3 * i, red | green << 8 | blue << 16);
     }
 }
 
@@ -404,6 +414,7 @@ const struct render_kernels RENDER_KERNELS = {
     .give = give,
     .reflect = reflect,
     .weigh = weigh,
+    .add_shares = add_shares,
     .bounds = bounds,
     .pack = pack,
     .see = see,

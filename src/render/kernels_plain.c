@@ -23,7 +23,7 @@ void place_point(const struct scene *scene, const struct hit_shapes *shapes, uin
     const struct geometry *g = &scene->geometry;
     const struct surface *surface = &scene->surfaces.at[points->surface[k]];
     struct ray ray = {.origin = vec3_get(shapes->origin, k),
-                      .direction = vec3_get(&points->incoming, k)};
+                      .direction = vec3_get(points->incoming, k)};
     struct hit hit = {
         .t = points->t[k], .prim = points->prim[k], .part = (uint32_t)shapes->part[k]};
     struct vec3 face, p = geometry_hit_point(g, &ray, &hit, &face);
@@ -70,7 +70,7 @@ static void bend(const struct vec3_batch *texels, const double *bent, struct sha
 static void face(struct shade_batch *points)
 {
     for (uint32_t i = 0; i < points->n; i++)
-        points->facing[i] = vec3_dot(vec3_get(&points->normal, i), vec3_get(&points->incoming, i));
+        points->facing[i] = vec3_dot(vec3_get(&points->normal, i), vec3_get(points->incoming, i));
 }
 
 static void aim_at(const struct light *light, const struct vec3_batch *from, const uint32_t *prims,
@@ -124,11 +124,14 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
     }
 }
 
-static void reflect(const struct shade_batch *points, struct vec3_batch *directions)
+static void reflect(const struct shade_batch *points, struct ray_batch *rays)
 {
     for (uint32_t i = 0; i < points->n; i++) {
         struct shade_point s = shade_point_get(points, i);
-        vec3_put(directions, i, vec3_normalize(vec3_mad(s.incoming, -2 * s.facing, s.normal)));
+        vec3_put(&rays->direction, i,
+                 vec3_normalize(vec3_mad(s.incoming, -2 * s.facing, s.normal)));
+        vec3_put(&rays->origin, i, s.p);
+        rays->from[i] = s.prim;
     }
 }
 
@@ -141,6 +144,14 @@ static uint64_t weigh(const struct vec3_batch *intensity, struct vec3 mirrored, 
         some |= (uint64_t)!vec3_is_zero(vec3_get(weight, i)) << i;
     }
     return some;
+}
+
+static void add_shares(const struct vec3_batch *weights, const struct vec3_batch *colours,
+                       uint32_t n, struct vec3_batch *sums)
+{
+    for (uint32_t i = 0; i < n; i++)
+        vec3_put(sums, i,
+                 vec3_add(vec3_get(sums, i), vec3_mul(vec3_get(weights, i), vec3_get(colours, i))));
 }
 
 /* A point with a part that is no number leaves that part out. */
@@ -156,12 +167,13 @@ static struct box bounds(const struct vec3_batch *points, uint32_t n)
 }
 
 static void pack(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
-                 uint32_t *pixels)
+                 uint8_t pixels[PACKED_ROOM])
 {
     for (uint32_t i = 0; i < n; i++) {
         struct vec3 c = vec3_scale(vec3_get(colours, i), out->gain);
-        uint32_t green = picture_byte(out, c.y), blue = picture_byte(out, c.z);
-        pixels[i] = picture_byte(out, c.x) | green << 8 | blue << 16;
+        pixels[3 * i] = picture_byte(out, c.x);
+        pixels[3 * i + 1] = picture_byte(out, c.y);
+        pixels[3 * i + 2] = picture_byte(out, c.z);
     }
 }
 
@@ -196,6 +208,7 @@ const struct render_kernels render_plain = {
     .give = modern_give,
     .reflect = reflect,
     .weigh = weigh,
+    .add_shares = add_shares,
     .bounds = bounds,
     .pack = pack,
     .see = see,

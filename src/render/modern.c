@@ -228,13 +228,12 @@ static struct box modern_begin(struct worker *w)
 static void modern_add(struct worker *w, size_t k, struct box box)
 {
     const struct lamp *lamp = &w->tracer->lamps[k];
-    double shares[BATCH_ROOM];
+    alignas(64) double room[BATCH_ROOM];
     if (lamp->light->kind == LIGHT_AREA) {
         add_area(w, lamp, box);
         return;
     }
-    fill_rest(shares, w->points.n, 0);
-    lamp_shares(w, lamp, box, shares);
+    const double *shares = lamp_shares(w, lamp, box, room);
     w->tracer->kernels->add_modern(&w->points, lamp->light, shares, &w->light);
 }
 

@@ -27,7 +27,7 @@ static inline void turn_to_eye(struct vseen *s, struct vvec3 geometric)
 static inline struct vseen seen_points(const struct shade_batch *b, uint32_t i)
 {
     struct vseen s = {.p = v3_load(&b->p, i),
-                      .incoming = v3_load(&b->incoming, i),
+                      .incoming = v3_load(b->incoming, i),
                       .normal = v3_load(&b->normal, i),
                       .smooth = v3_load(smooth_normals(b), i),
                       .diffuse = v3_load(&b->diffuse, i),
@@ -46,7 +46,7 @@ static inline struct vseen seen_points(const struct shade_batch *b, uint32_t i)
 static inline struct vseen seen_point(const struct shade_batch *b, uint32_t k)
 {
     struct vseen s = {.p = v3_all(vec3_get(&b->p, k)),
-                      .incoming = v3_all(vec3_get(&b->incoming, k)),
+                      .incoming = v3_all(vec3_get(b->incoming, k)),
                       .normal = v3_all(vec3_get(&b->normal, k)),
                       .smooth = v3_all(vec3_get(smooth_normals(b), k)),
                       .diffuse = v3_all(vec3_get(&b->diffuse, k)),

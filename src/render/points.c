@@ -78,20 +78,31 @@ static bool all_hit_the_same(const struct hit_batch *hits, uint32_t n)
     return differing == 0;
 }
 
-/* Those of points that all lie on one primitive, as most tiles' do. */
-static void note_same(struct worker *w, uint32_t n)
+/* Nothing to do where the last points did, too. */
+static void note_prim(struct worker *w, uint32_t number, uint32_t n)
 {
     struct shade_batch *points = &w->points;
-    uint32_t number = (uint32_t)w->hits.prim[0];
     struct prim prim = w->tracer->scene->geometry.prims.at[number];
+    if (points->noted >= n && points->prim[0] == number)
+        return;
     for (uint32_t k = 0; k < n; k++) {
         points->ray[k] = k;
         points->prim[k] = number;
         points->surface[k] = prim.surface;
         w->shapes.index[k] = prim.index;
     }
+    points->noted = n;
+}
+
+/* Those of points that all lie on one primitive, as most tiles' do. */
+static void note_same(struct worker *w, uint32_t n)
+{
+    struct shade_batch *points = &w->points;
+    uint32_t number = (uint32_t)w->hits.prim[0];
+    unsigned kind_of = w->tracer->scene->geometry.prims.at[number].kind;
+    note_prim(w, number, n);
     for (unsigned kind = 0; kind <= PRIM_KINDS; kind++)
-        w->shapes.first[kind] = kind <= prim.kind ? 0 : n;
+        w->shapes.first[kind] = kind <= kind_of ? 0 : n;
     points->n = n;
     points->in_order = true;
 }
@@ -124,6 +135,7 @@ static void note_any(struct worker *w, uint32_t n)
     const struct prim *prims = w->tracer->scene->geometry.prims.at;
     struct shade_batch *points = &w->points;
     unsigned kinds = 0;
+    points->noted = 0;
     for (uint32_t i = 0; i < n; i++) {
         uint32_t number = (uint32_t)w->hits.prim[i], hit = number != PRIM_NONE;
         struct prim prim = hit ? prims[number] : (struct prim){0};
@@ -161,20 +173,23 @@ static void pick_rays(struct worker *w, const struct ray_batch *rays)
     struct shade_batch *points = &w->points;
     struct hit_shapes *shapes = &w->shapes;
     uint32_t n = points->n;
+    struct picked *picked = &w->picked;
     shapes->origin = &rays->origin;
-    if (points->in_order) {
-        vec3_copy(&points->incoming, n, &rays->direction);
-        memcpy(points->t, w->hits.t, n * sizeof *points->t);
-        memcpy(shapes->part, w->hits.part, n * sizeof *shapes->part);
+    points->incoming = &rays->direction;
+    points->t = w->hits.t;
+    shapes->part = w->hits.part;
+    if (points->in_order)
         return;
-    }
-    pick_vectors(&points->incoming, &rays->direction, points->ray, n);
-    pick(points->t, w->hits.t, points->ray, n);
-    pick(shapes->part, w->hits.part, points->ray, n);
-    if (!rays->common_origin) {
-        pick_vectors(&shapes->origins, &rays->origin, points->ray, n);
-        shapes->origin = &shapes->origins;
-    }
+    pick_vectors(&picked->incoming, &rays->direction, points->ray, n);
+    pick(picked->t, w->hits.t, points->ray, n);
+    pick(picked->part, w->hits.part, points->ray, n);
+    points->incoming = &picked->incoming;
+    points->t = picked->t;
+    shapes->part = picked->part;
+    if (rays->common_origin)
+        return;
+    pick_vectors(&picked->origin, &rays->origin, points->ray, n);
+    shapes->origin = &picked->origin;
 }
 
 static bool lie_on_one_surface(const struct shade_batch *points)

@@ -83,14 +83,14 @@ static void store_tile(struct rendering *r, const struct tile *tile,
 {
     struct picture *out = r->out;
     uint32_t width = tile->x1 - tile->x0, x = tile->x0 - r->tiling.whole.x0, n = 0;
-    uint32_t pixels[BATCH_ROOM];
+    uint8_t pixels[PACKED_ROOM];
     bool packed = out->bytes != NULL;
     if (packed)
         r->tracer.kernels->pack(out, colours, width * (tile->y1 - tile->y0), pixels);
     for (uint32_t row = tile->y0; row < tile->y1; row++, n += width) {
         uint32_t y = row - r->tiling.whole.y0;
         if (packed)
-            picture_set_row(out, x, y, pixels + n, width);
+            picture_set_row(out, x, y, pixels + 3 * n, width);
         for (uint32_t i = 0; i < width && !packed; i++)
             picture_set(out, x + i, y, vec3_get(colours, n + i));
     }

@@ -217,23 +217,29 @@ static uint64_t find_shadowed(struct worker *w, const struct lamp *lamp,
     return shadowed;
 }
 
-void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares)
+const double *lamp_shares(struct worker *w, const struct lamp *lamp, struct box box,
+                          double room[BATCH_ROOM])
 {
     struct target_list list;
     list.usable = false;
     if (lamp->light->kind == LIGHT_AREA) {
-        area_shares(w, lamp, box, shares);
-        return;
+        fill_rest(room, w->points.n, 0);
+        area_shares(w, lamp, box, room);
+        return room;
     }
     const struct tracer *t = w->tracer;
     uint64_t lit = lit_points(w, lamp);
     if (t->skips && lit && w->points.n > 1 && !bundle_needs_no_lists(&t->accel))
         list_shadowers(t, lamp, box, &list);
-    fill(shares, 0, w->points.n, 1);
     if (list.usable && list.n == 0 && tracer_skips(t, SKIP_OPEN)) {
         w->stats.skipped[SKIP_OPEN] += (uint64_t)__builtin_popcountll(lit);
-        return;
+        return w->ones;
     }
-    for (uint64_t left = lit ? find_shadowed(w, lamp, &list, lit) : 0; left; left &= left - 1)
-        shares[__builtin_ctzll(left)] = 0;
+    uint64_t shadowed = lit ? find_shadowed(w, lamp, &list, lit) : 0;
+    if (!shadowed)
+        return w->ones;
+    memcpy(room, w->ones, BATCH_ROOM * sizeof *room);
+    for (; shadowed; shadowed &= shadowed - 1)
+        room[__builtin_ctzll(shadowed)] = 0;
+    return room;
 }

@@ -9,6 +9,7 @@ struct worker *worker_new(const struct tracer *tracer)
     struct worker *w = mem_alloc_aligned(1, sizeof *w);
     memset(w, 0, sizeof *w);
     w->tracer = tracer;
+    fill(w->ones, 0, BATCH_ROOM, 1);
     return w;
 }
 
@@ -25,6 +26,8 @@ static struct level *level_new(void)
     struct level *level = mem_alloc_aligned(1, sizeof *level);
     memset(level, 0, sizeof *level);
     level->reflected.rays.spawned = level->refracted.rays.spawned = true;
+    fill(level->reflected.rays.t_max, 0, BATCH_ROOM, RAY_UNBOUNDED);
+    fill(level->refracted.rays.t_max, 0, BATCH_ROOM, RAY_UNBOUNDED);
     for (uint32_t i = 0; i < BATCH; i++) /* classic: so are all mirrored rays */
         level->reflected.paths[i] = (struct path){.crossed = SURFACE_NONE, .index = 1};
     return level;
@@ -39,12 +42,6 @@ struct level *level_at(struct worker *w, uint32_t depth)
     return level;
 }
 
-static void add_shares(double *sums, const double *weights, const double *x, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++)
-        sums[i] += weights[i] * x[i];
-}
-
 /* Traces the rays and adds their share to their parents' colours. */
 static void trace_offspring(struct worker *w, struct level *level, uint32_t depth,
                             const struct offspring *o, struct vec3_batch *colours)
@@ -53,9 +50,7 @@ static void trace_offspring(struct worker *w, struct level *level, uint32_t dept
         return;
     trace_batch(w, depth + 1, &o->rays, o->paths, &level->colours);
     if (o->in_order) {
-        add_shares(colours->x, o->weight.x, level->colours.x, o->rays.n);
-        add_shares(colours->y, o->weight.y, level->colours.y, o->rays.n);
-        add_shares(colours->z, o->weight.z, level->colours.z, o->rays.n);
+        w->tracer->kernels->add_shares(&o->weight, &level->colours, o->rays.n, colours);
         return;
     }
     for (uint32_t i = 0; i < o->rays.n; i++) {

@@ -129,7 +129,7 @@ struct path {
 /* Hits and what shading needs of them. */
 struct shade_batch {
     uint32_t n;
-    struct vec3_batch incoming; /* unit, direction of travel */
+    const struct vec3_batch *incoming; /* unit, direction of travel: the rays' own or picked */
     struct vec3_batch p, normal;
     /* Modern: some surface is smooth or has a normal map.  Where not, the next are normal and p. */
     bool curved;
@@ -143,9 +143,10 @@ struct shade_batch {
     alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
     uint32_t prim[BATCH_ROOM], surface[BATCH_ROOM];
     uint32_t ray[BATCH];              /* place in the batch of rays */
+    uint32_t noted;                   /* so many are still noted to be the rays' own, on prim[0] */
     bool in_order;                    /* point k is ray k's, for all rays */
     bool one_surface;                 /* all lie on one */
-    alignas(64) double t[BATCH_ROOM]; /* distance along it */
+    const double *t;                  /* distance along it: the hits' own or picked */
     bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
     /* What `finish`, `power`, `diffuse` and `specular` of so many points are still filled with. */
@@ -181,7 +182,7 @@ struct shade_point {
 
 static inline struct shade_point shade_point_get(const struct shade_batch *b, uint32_t i)
 {
-    return (struct shade_point){vec3_get(&b->incoming, i),
+    return (struct shade_point){vec3_get(b->incoming, i),
                                 vec3_get(&b->p, i),
                                 vec3_get(&b->normal, i),
                                 vec3_get(&b->diffuse, i),
@@ -209,11 +210,16 @@ struct textured {
 struct hit_shapes {
     uint32_t first[PRIM_KINDS + 1];
     alignas(64) uint32_t index[BATCH_ROOM]; /* of the shape, in the array of its kind */
-    alignas(64) double part[BATCH_ROOM];
-    const struct vec3_batch *origin; /* of the ray: these or the rays' own */
-    struct vec3_batch origins;
+    const double *part;              /* of it: the hits' own or picked */
+    const struct vec3_batch *origin; /* of the ray: likewise */
     bool weighted; /* some surface has something to interpolate between corners */
     bool bent;     /* the normals of some are not the primitives': smooth, flipped */
+};
+
+/* What some of a batch's rays and hits, in another order, say of the points. */
+struct picked {
+    struct vec3_batch origin, incoming;
+    alignas(64) double t[BATCH_ROOM], part[BATCH_ROOM];
 };
 
 /* What camera rays through a part of the picture can meet. */
@@ -229,6 +235,9 @@ struct sight {
     uint64_t near[TARGET_LIST_LIMIT]; /* by target; bit k: it may be in the way of point k */
     uint64_t hidden;                  /* bit k: one target hides all of the lamp from point k */
 };
+
+/* Bytes of packed pixels, and what a vector reaches behind them. */
+enum { PACKED_ROOM = 4 * BATCH_ROOM };
 
 /* What an instruction set has its own code for. */
 struct render_kernels {
@@ -268,15 +277,18 @@ struct render_kernels {
     /* What samples of an area light give point k if nothing is in the way; modern. */
     void (*give)(const struct shade_batch *points, uint32_t k, const struct light *light,
                  const struct sample_batch *samples, struct vec3_batch *gives);
-    /* The directions of mirrored rays. */
-    void (*reflect)(const struct shade_batch *points, struct vec3_batch *directions);
+    /* Rays mirrored at the points; their t_max is not touched. */
+    void (*reflect)(const struct shade_batch *points, struct ray_batch *rays);
     /* What light of these intensities weighs of which so much is mirrored.  Bit k: k's is not 0. */
     uint64_t (*weigh)(const struct vec3_batch *intensity, struct vec3 mirrored, uint32_t n,
                       struct vec3_batch *weight);
     struct box (*bounds)(const struct vec3_batch *points, uint32_t n);
+    /* Adds the products of weights and colours. */
+    void (*add_shares)(const struct vec3_batch *weights, const struct vec3_batch *colours,
+                       uint32_t n, struct vec3_batch *sums);
     /* Colours as pixels of a picture of bytes, see picture_set_row. */
     void (*pack)(const struct picture *out, const struct vec3_batch *colours, uint32_t n,
-                 uint32_t *pixels);
+                 uint8_t pixels[PACKED_ROOM]);
     /* Fills in what the points from `first` to `end`, which lie on `prims`, see of an area light,
      * behind the targets of sight->list.  Bit k of `opaque`: target k hides what is behind it. */
     void (*see)(const struct geometry *g, const struct lamp *lamp, uint32_t opaque,
@@ -312,11 +324,13 @@ struct worker {
     /* Of the batch being shaded: */
     struct hit_batch hits;
     struct hit_shapes shapes;
+    struct picked picked;
     struct shade_batch points;
     struct textured bumps, paints; /* by normal maps, by textures */
     struct light_batch light;
     struct ray_batch shadow_rays;
     struct sample_batch jittered; /* samples of an area light for one point */
+    alignas(64) double ones[BATCH_ROOM];
 };
 
 /* lamp.c */
@@ -338,7 +352,8 @@ enum lamp_view lamp_view(const struct tracer *t, const struct sight *sight, uint
 
 /* shadow.c: the share of the lamp's light that reaches each of w->points, which lie in the box.
  * Classic, but for point lights and suns, which have it in both. */
-void lamp_shares(struct worker *w, const struct lamp *lamp, struct box box, double *shares);
+const double *lamp_shares(struct worker *w, const struct lamp *lamp, struct box box,
+                          double room[BATCH_ROOM]);
 /* Bit k: point k may get light from the lamp if nothing is in the way; there are some. */
 uint64_t lit_points(struct worker *w, const struct lamp *lamp);
 /* How far a shadow ray to the light goes, in its own length. */
@@ -390,7 +405,6 @@ static inline struct path *spawn_ray(struct offspring *o, const struct shade_bat
     o->in_order = false;
     vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
     vec3_put(&o->rays.direction, i, direction);
-    o->rays.t_max[i] = RAY_UNBOUNDED;
     o->rays.from[i] = points->prim[k];
     return &o->paths[i];
 }

@@ -210,15 +210,18 @@ static struct vec3 unit_at(uint64_t run, uint32_t i, uint64_t what)
 }
 
 /* Points with all kinds of normals; every third has a highlight that is no whole power. */
-static void make_points(struct shade_batch *points, const struct finish finishes[3], uint64_t run)
+static void make_points(struct shade_batch *points, struct vec3_batch *incoming,
+                        const struct finish finishes[3], uint64_t run)
 {
     memset(points, 0, sizeof *points);
+    memset(incoming, 0, sizeof *incoming);
+    points->incoming = incoming;
     points->n = run % 2 ? 13 : BATCH;
     points->any_uneven = points->curved = true;
     for (uint32_t i = 0; i < points->n; i++) {
         struct vec3 normal = unit_at(run, i, 1);
         vec3_put(&points->p, i, random_vec3(run, i, 2));
-        vec3_put(&points->incoming, i, unit_at(run, i, 3));
+        vec3_put(incoming, i, unit_at(run, i, 3));
         vec3_put(&points->normal, i, normal);
         vec3_put(&points->geometric, i, i % 4 ? normal : unit_at(run, i, 4));
         vec3_put(&points->smooth, i, i % 5 ? normal : unit_at(run, i, 5));
@@ -241,7 +244,8 @@ START_TEST(modern_light_is_that_of_single_points)
     for (int i = 0; i < 3; i++)
         finishes[i] = finish_of(&materials[i]);
     struct shade_batch *points = mem_alloc_aligned(1, sizeof *points);
-    make_points(points, finishes, run);
+    struct vec3_batch incoming;
+    make_points(points, &incoming, finishes, run);
     points->any_glowing = true;
     struct light light = {.kind = run & 2 ? LIGHT_SUN : LIGHT_POINT,
                           .position = unit_at(run, 0, 7),
@@ -286,7 +290,8 @@ START_TEST(who_faces_away_gets_no_light)
     struct finish finishes[3] = {finish_of(&matt), finish_of(&matt), finish_of(&matt)};
     uint64_t run = (uint64_t)_i, away = 0;
     struct shade_batch *points = mem_alloc_aligned(1, sizeof *points);
-    make_points(points, finishes, run);
+    struct vec3_batch incoming;
+    make_points(points, &incoming, finishes, run);
     struct light light = {.kind = LIGHT_AREA, .intensity = {1, 1, 1}, .both_sides = true};
     struct lamp lamp = {.light = &light, .center = random_vec3(run, 0, 10), .radius = 0.3};
     struct sample_batch samples = {.n = BATCH};
@@ -345,10 +350,14 @@ static void make_surfaces(struct scene *s, uint64_t run, struct vec3 *normals,
 
 /* Rays that lead to places on primitives, some of them to corners, or to edges from afar. */
 static void make_hits(const struct scene *s, uint64_t run, struct hit_shapes *shapes,
-                      struct shade_batch *points)
+                      struct shade_batch *points, struct picked *picked)
 {
     const struct geometry *g = &s->geometry;
     uint32_t n = 0;
+    shapes->origin = &picked->origin;
+    shapes->part = picked->part;
+    points->incoming = &picked->incoming;
+    points->t = picked->t;
     for (unsigned kind = 0; kind < PRIM_INSTANCE; kind++) {
         shapes->first[kind] = n;
         for (uint32_t i = 0; i < 20 && n < BATCH - run % 5; i++, n++) {
@@ -372,10 +381,10 @@ static void make_hits(const struct scene *s, uint64_t run, struct hit_shapes *sh
         }
         points->surface[k] = prim.surface;
         shapes->index[k] = prim.index;
-        shapes->part[k] = k % 3;
-        points->t[k] = vec3_length(vec3_sub(to, from));
-        vec3_put(&shapes->origins, k, from);
-        vec3_put(&points->incoming, k, vec3_normalize(vec3_sub(to, from)));
+        picked->part[k] = k % 3;
+        picked->t[k] = vec3_length(vec3_sub(to, from));
+        vec3_put(&picked->origin, k, from);
+        vec3_put(&picked->incoming, k, vec3_normalize(vec3_sub(to, from)));
     }
 }
 
@@ -386,12 +395,13 @@ START_TEST(points_lie_where_single_ones_do)
     struct vec3 normals[30];
     struct triangle_corners corners[30];
     struct hit_shapes *shapes = mem_alloc_aligned(1, sizeof *shapes);
+    struct picked *picked = mem_alloc_aligned(1, sizeof *picked);
     struct shade_batch *expected = mem_alloc_aligned(2, sizeof *expected), *points = expected + 1;
     memset(shapes, 0, sizeof *shapes);
+    memset(picked, 0, sizeof *picked);
     memset(expected, 0, sizeof *expected);
     make_surfaces(&s, run, normals, corners);
-    make_hits(&s, run, shapes, expected);
-    shapes->origin = &shapes->origins;
+    make_hits(&s, run, shapes, expected, picked);
     shapes->weighted = shapes->bent = true;
     expected->curved = run % 2;
     *points = *expected;
@@ -412,6 +422,7 @@ START_TEST(points_lie_where_single_ones_do)
         check_same_vectors(&points->lifted, &expected->lifted, n);
     }
     free(expected);
+    free(picked);
     free(shapes);
     vec_free(&s.surfaces);
     geometry_free(&s.geometry);
@@ -445,7 +456,7 @@ START_TEST(packed_pixels_are_those_of_single_colours)
     for (uint32_t i = 0; i < BATCH; i++)
         picture_set(p, 1 + i, 0, vec3_get(&colours, i));
     for (int isa = ISA_PLAIN; isa < ISA_COUNT; isa++) {
-        uint32_t pixels[BATCH_ROOM];
+        uint8_t pixels[PACKED_ROOM];
         if (!isa_available((enum isa)isa))
             continue;
         memset(q->bytes, 0, 3 * (BATCH + 2));
@@ -453,7 +464,7 @@ START_TEST(packed_pixels_are_those_of_single_colours)
         uint32_t part = 1 + (uint32_t)_i % 9;
         picture_set_row(q, 1, 0, pixels, part);
         ck_assert_int_eq(q->bytes[3 * (1 + part)], 0);
-        picture_set_row(q, 1 + part, 0, pixels + part, BATCH - part);
+        picture_set_row(q, 1 + part, 0, pixels + 3 * part, BATCH - part);
         ck_assert_int_eq(memcmp(p->bytes, q->bytes, 3 * (BATCH + 2)), 0);
     }
     picture_free(p);
