@@ -38,6 +38,7 @@ struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box
     s.t_max = INFINITY;
     s.endless = true;
     s.spawned = false;
+    s.from = PRIM_NONE;
     s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(origins));
     make_ready(&s, directions.lo, directions.hi);
     return s;
@@ -55,6 +56,7 @@ struct shaft shaft_between(const struct accel *a, struct box p, struct box q, do
     s.t_max = 1;
     s.endless = false;
     s.spawned = true;
+    s.from = PRIM_NONE;
     s.padding = SHAFT_PADDING * a->padding * (a->reach + box_reach(p) + box_reach(s.end));
     make_ready(&s, vec3_sub(s.end.lo, p.lo), vec3_sub(s.end.hi, p.hi));
     return s;
@@ -141,6 +143,8 @@ static struct box bounds_of(const struct geometry *g, struct target target)
 
 bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target)
 {
+    if (target.kind == PRIM_TRIANGLE && target.prim == s->from)
+        return false;
     if (!touches(s, bounds_of(a->geometry, target)))
         return false;
     if (target.kind == PRIM_CYLINDER)

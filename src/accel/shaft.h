@@ -13,6 +13,7 @@ struct shaft {
     double t_max;
     bool endless;
     bool spawned; /* all rays are */
+    double from;  /* where all of them start: a primitive's number, or PRIM_NONE */
     double padding;
     /* Ready for tests: bounds at t = 0 with the padding, and 1 / their growth. */
     double lo[3], hi[3], lo_inverse[3], hi_inverse[3];

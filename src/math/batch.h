@@ -65,6 +65,7 @@ static inline void vec3_copy(struct vec3_batch *to, uint32_t n, const struct vec
 struct ray_batch {
     uint32_t n;
     bool common_origin; /* all have the same */
+    bool common_from;   /* likewise; false where that is not known */
     bool spawned;       /* all are */
     struct vec3_batch origin, direction;
     alignas(64) double t_max[BATCH_ROOM];

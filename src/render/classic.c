@@ -62,6 +62,7 @@ static bool reflect_all(const struct worker *w, struct level *level)
         o->parent[k] = k;
     w->tracer->kernels->reflect(points, &o->rays);
     o->rays.n = points->n;
+    o->rays.common_from = points->noted >= points->n;
     o->in_order = true;
     return true;
 }

@@ -260,6 +260,13 @@ static vmask glowing_lanes(const struct shade_batch *points, uint32_t i)
     return v_less(v_all(0), v_load(glows));
 }
 
+/* The material's colours. */
+static inline struct vvec3 colours_at(const struct shade_batch *points,
+                                      const struct vec3_batch *colours, uint32_t i)
+{
+    return points->plain ? v3_all(vec3_get(colours, 0)) : v3_load(colours, i);
+}
+
 /* What is reflected of light that comes from to_light. */
 static struct vvec3 direct_light(const struct shade_batch *points, uint32_t i,
                                  struct vvec3 to_light)
@@ -267,11 +274,11 @@ static struct vvec3 direct_light(const struct shade_batch *points, uint32_t i,
     vreal cosine = v3_dot(v3_load(&points->normal, i), to_light);
     vreal mirrored =
         v3_dot(v3_load(points->incoming, i), to_light) - 2 * cosine * v_load(points->facing + i);
-    struct vvec3 lit = v3_scale(v3_load(&points->diffuse, i), cosine);
+    struct vvec3 lit = v3_scale(colours_at(points, &points->diffuse, i), cosine);
     vreal highlight = whole_powers(mirrored, v_load_int(points->power + i), points->one_surface);
     if (points->any_uneven)
         uneven_lanes(points, i, cosine, mirrored, &lit, &highlight);
-    return v3_mad(lit, highlight, v3_load(&points->specular, i));
+    return v3_mad(lit, highlight, colours_at(points, &points->specular, i));
 }
 
 static void add_light(const struct shade_batch *points, const struct light *light,

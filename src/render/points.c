@@ -37,6 +37,7 @@ static const struct target_list *find_targets(const struct tracer *t, const stru
     struct box origins = t->kernels->bounds(&rays->origin, rays->common_origin ? 1 : rays->n);
     struct box directions = t->kernels->bounds(&rays->direction, rays->n);
     struct shaft shaft = shaft_of_rays(&t->accel, origins, directions);
+    shaft.from = rays->common_from ? rays->from[0] : PRIM_NONE;
     if (known && known->usable) {
         shaft_narrow(&t->accel, &shaft, known, room);
         return room;
@@ -429,6 +430,7 @@ static void finish_points(struct worker *w)
         end = end_of_surface(points, first);
         finish_run(w, first, end);
     }
+    points->plain = points->one_surface && w->paints.n == 0;
     if (points->curved)
         vec3_copy(&points->smooth, points->n, &points->normal);
     if (w->bumps.n > 0)

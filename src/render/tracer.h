@@ -146,6 +146,7 @@ struct shade_batch {
     uint32_t noted;                   /* so many are still noted to be the rays' own, on prim[0] */
     bool in_order;                    /* point k is ray k's, for all rays */
     bool one_surface;                 /* all lie on one */
+    bool plain;                       /* and none has a texture: all colours are the first's */
     const double *t;                  /* distance along it: the hits' own or picked */
     bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
@@ -402,7 +403,7 @@ static inline struct path *spawn_ray(struct offspring *o, const struct shade_bat
     uint32_t i = o->rays.n++;
     vec3_put(&o->weight, i, weight);
     o->parent[i] = points->ray[k];
-    o->in_order = false;
+    o->in_order = o->rays.common_from = false;
     vec3_put(&o->rays.origin, i, vec3_get(&points->p, k));
     vec3_put(&o->rays.direction, i, direction);
     o->rays.from[i] = points->prim[k];
