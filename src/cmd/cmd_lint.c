@@ -25,6 +25,15 @@ struct tally {
     size_t fixed;
 };
 
+/* Where that needs what is not installed. */
+static void tell_unexamined_meshes(const struct lowered *l)
+{
+    struct mesh_report none;
+    const char *reason = l->meshes.n > 0 ? openmesh_analyse(NULL, 0, NULL, 0, &none) : NULL;
+    if (reason)
+        fprintf(stderr, "wrt: warning: no mesh is examined: %s\n", reason);
+}
+
 /* Everything that can be found in a scene that was loaded. */
 static void examine(struct frontend *f)
 {
@@ -45,6 +54,7 @@ static void examine(struct frontend *f)
         lower_scene(&f->desc, &f->sources, &lowered, &f->diag);
         if (is_sound(f)) {
             l.lowered = &lowered;
+            tell_unexamined_meshes(&lowered);
             l.survey = survey_new(&f->desc, &lowered);
             lint_run(&l, LINT_SCENE);
             lint_run(&l, LINT_RAYS);

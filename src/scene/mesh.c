@@ -74,19 +74,3 @@ void mesh_vertex_normals(const struct vec3 *points, size_t point_count,
         normals[i] = length > CANCELLED ? vec3_scale(normals[i], 1 / length) : vec3_all(0);
     }
 }
-
-#ifndef HAVE_OPENMESH
-
-const char *openmesh_analyse(const struct vec3 *points, size_t point_count,
-                             const struct triangle_corners *faces, size_t face_count,
-                             struct mesh_report *report)
-{
-    (void)points;
-    (void)point_count;
-    (void)faces;
-    (void)face_count;
-    *report = (struct mesh_report){0};
-    return "this wrt was built without OpenMesh";
-}
-
-#endif

@@ -2,10 +2,6 @@
 
 #include "scene/openmesh.h"
 
-extern "C" {
-#include "base/mem.h"
-}
-
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
@@ -50,8 +46,9 @@ class silence {
 // Only connectivity is asked for; positions stay in the caller's doubles.
 class analysis {
   public:
-    analysis(const struct vec3 *points, size_t point_count, size_t face_count)
-        : points_(points), used_(point_count)
+    analysis(const struct vec3 *points, size_t point_count, size_t face_count,
+             openmesh_normal *face_normal)
+        : points_(points), face_normal_(face_normal), used_(point_count)
     {
         mesh_.reserve(point_count, point_count + face_count, face_count); // Euler: e = v + f - 2
         edges_.reserve(3 * face_count);
@@ -69,7 +66,7 @@ class analysis {
         bool collapsed = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
         struct vec3 unused;
         bool flat =
-            collapsed || !mesh_face_normal(points_[v[0]], points_[v[1]], points_[v[2]], &unused);
+            collapsed || !face_normal_(points_[v[0]], points_[v[1]], points_[v[2]], &unused);
         if (flat && degenerate_++ == 0)
             first_degenerate_ = face_;
         face_++;
@@ -158,6 +155,7 @@ class analysis {
 
     half_edges mesh_;
     const struct vec3 *points_;
+    openmesh_normal *face_normal_;
     struct vec3 origin_ = vec3_all(0);
     std::vector<bool> used_;
     std::vector<uint64_t> edges_;
@@ -168,24 +166,23 @@ class analysis {
 
 } // namespace
 
-extern "C" const char *openmesh_analyse(const struct vec3 *points, size_t point_count,
-                                        const struct triangle_corners *faces, size_t face_count,
-                                        struct mesh_report *report)
+extern "C" int openmesh_module_analyse(const struct vec3 *points, size_t point_count,
+                                       const struct triangle_corners *faces, size_t face_count,
+                                       openmesh_normal *face_normal, struct mesh_report *report)
 {
-    *report = mesh_report();
     // Handles are ints: six half-edges a face at most, three vertices a duplicated one.
     if (face_count > INT_MAX / 6 || point_count > INT_MAX - 3 * face_count)
-        return "the mesh has more faces than OpenMesh can hold";
+        return OPENMESH_TOO_LARGE;
     try {
         silence quiet;
-        analysis a(points, point_count, face_count);
+        analysis a(points, point_count, face_count, face_normal);
         for (size_t i = 0; i < face_count; i++)
             a.add(faces[i]);
         *report = a.report();
-        return nullptr;
+        return OPENMESH_DONE;
     } catch (const std::bad_alloc &) {
-        mem_exhausted(face_count * 3 * sizeof(uint64_t)); // its edges, at least
+        return OPENMESH_NO_MEMORY;
     } catch (...) {
-        return "OpenMesh could not analyse the mesh";
+        return OPENMESH_FAILED;
     }
 }

@@ -28,8 +28,18 @@ struct mesh_report {
     uint32_t first_boundary[2];                  /* vertices of the edge, the lower one first */
 };
 
+/* mesh_face_normal, as the shim is told of it. */
+typedef int openmesh_normal(struct vec3 a, struct vec3 b, struct vec3 c, struct vec3 *normal);
+
+enum openmesh_result { OPENMESH_DONE, OPENMESH_TOO_LARGE, OPENMESH_NO_MEMORY, OPENMESH_FAILED };
+
+/* The shim's: as openmesh_analyse, but returns an openmesh_result. */
+int openmesh_module_analyse(const struct vec3 *points, size_t point_count,
+                            const struct triangle_corners *faces, size_t face_count,
+                            openmesh_normal *face_normal, struct mesh_report *report);
+
 /* Returns NULL or a static reason; prints nothing, throws nothing.  Every corner must be below
- * point_count.  Without OpenMesh (see HAVE_OPENMESH) there is only the reason. */
+ * point_count.  Without OpenMesh or its module (openmesh_load.c) there is only the reason. */
 const char *openmesh_analyse(const struct vec3 *points, size_t point_count,
                              const struct triangle_corners *faces, size_t face_count,
                              struct mesh_report *report);
