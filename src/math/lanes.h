@@ -5,6 +5,7 @@
 #ifndef WRT_MATH_LANES_H
 #define WRT_MATH_LANES_H
 
+#include "math/angle.h"
 #include "math/batch.h"
 
 #if defined __AVX512F__ && defined __AVX512DQ__
@@ -419,6 +420,30 @@ static inline vreal v_difference_of_products(vreal a, vreal b, vreal c, vreal d)
 {
     vreal cd = c * d;
     return v_fma(a, b, -cd) + v_fma(-c, d, cd);
+}
+
+/* See angle_of. */
+static inline vreal v_angle(vreal x, vreal y)
+{
+    vreal ax = v_abs(x), ay = v_abs(y), zero = v_all(0);
+    vmask steep = v_less(ax, ay);
+    vreal lo = v_select(steep, ax, ay), hi = v_select(steep, ay, ax);
+    vmask far = v_less(ANGLE_HALF_OCTANT * hi, lo);
+    vreal t = v_select(far, lo - hi, lo) / v_select(far, lo + hi, hi);
+    vreal square = t * t, fourth = square * square;
+    vreal even = v_all(angle_term[ANGLE_TERMS - 1]), odd = v_all(angle_term[ANGLE_TERMS - 2]);
+    for (int k = ANGLE_TERMS - 3; k >= 2; k -= 2) {
+        even = even * fourth + angle_term[k];
+        odd = odd * fourth + angle_term[k - 1];
+    }
+    even = even * fourth + angle_term[0];
+    vreal rest = t + t * square * (even + square * odd), eighths = v_select(far, v_all(1), zero);
+    const vmask turned[3] = {steep, v_less(x, zero), v_less(y, zero)};
+    for (int i = 0; i < 3; i++) {
+        eighths = v_select(turned[i], (2 << i) - eighths, eighths);
+        rest = v_select(turned[i], -rest, rest);
+    }
+    return eighths * (PI / 4) + rest;
 }
 
 /* ---- three of them --------------------------------------------------------------------------- */

@@ -41,6 +41,23 @@ static void fill_vectors(struct vec3_batch *to, uint32_t first, uint32_t end, st
         v3_store(to, i, all);
 }
 
+/* ---- texture coordinates ----------------------------------------------------------------------
+ */
+
+static void spheres_uv(const struct sphere *sphere, const struct vec3_batch *points, uint32_t first,
+                       uint32_t end, double *u, double *v)
+{
+    struct vvec3 center = v3_all(sphere->center);
+    vreal zero = v_all(0);
+    for (uint32_t i = first; i < end; i += LANES) {
+        struct vvec3 d = v3_sub(v3_load(points, i), center);
+        vreal q = v_sqrt(d.x * d.x + d.z * d.z);
+        vreal longitude = v_select(v_equal(q, zero), zero, v_angle(d.x, d.z));
+        v_store(u + i - first, longitude * (1 / (2 * PI)));
+        v_store(v + i - first, v_angle(d.y, q) * (-1 / PI));
+    }
+}
+
 /* ---- textures, see texture_fetch ---------------------------------------------------------------
  */
 
@@ -411,6 +428,7 @@ const struct render_kernels RENDER_KERNELS = {
     .aim_grid = aim_grid,
     .fill = fill_vectors,
     .hit_points = hit_points,
+    .sphere_uv = spheres_uv,
     .texels = texels,
     .bend = bend,
     .face = face,

@@ -50,6 +50,16 @@ static void hit_points(const struct scene *scene, const struct hit_shapes *shape
         place_point(scene, shapes, k, points);
 }
 
+static void spheres_uv(const struct sphere *sphere, const struct vec3_batch *points, uint32_t first,
+                       uint32_t end, double *u, double *v)
+{
+    for (uint32_t i = first; i < end; i++) {
+        struct vec2 uv = sphere_uv(sphere, vec3_get(points, i));
+        u[i - first] = uv.x;
+        v[i - first] = uv.y;
+    }
+}
+
 static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
                    struct vec3_batch *texels)
 {
@@ -198,6 +208,7 @@ const struct render_kernels render_plain = {
     .aim_grid = aim_grid,
     .fill = vec3_fill,
     .hit_points = hit_points,
+    .sphere_uv = spheres_uv,
     .texels = texels,
     .bend = bend,
     .face = face,

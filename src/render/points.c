@@ -239,14 +239,21 @@ static struct hit hit_of_point(const struct worker *w, uint32_t k)
                         .b2 = points->b2[k]};
 }
 
-/* Texture coordinates of points first to end, which lie on one primitive. */
+/* Texture coordinates of points first to end, which lie on one primitive, and up to the next whole
+ * vector. */
 static void find_uv(const struct worker *w, uint32_t first, uint32_t end,
                     const struct surface *surface, double *u, double *v)
 {
     const struct scene *scene = w->tracer->scene;
     const struct shade_batch *points = &w->points;
     uint32_t prim = points->prim[first];
-    if (surface->uvs && scene->geometry.prims.at[prim].kind == PRIM_TRIANGLE) {
+    struct prim shape = scene->geometry.prims.at[prim];
+    if (shape.kind == PRIM_SPHERE) {
+        w->tracer->kernels->sphere_uv(&scene->geometry.spheres.at[shape.index], &points->p, first,
+                                      end, u, v);
+        return;
+    }
+    if (surface->uvs && shape.kind == PRIM_TRIANGLE) {
         const struct vec2 *corner = surface->uvs + 3 * (prim - surface->first_prim);
         for (uint32_t k = first; k < end; k++) {
             struct vec2 uv = triangle_uv(corner, points->b1[k], points->b2[k]);
@@ -283,7 +290,7 @@ static void note_textures(struct worker *w, uint32_t first, uint32_t end,
 {
     const struct material *m = w->points.finish[first]->material;
     struct textured *bumps = &w->bumps;
-    double found[2][BATCH], *u = found[0], *v = found[1];
+    double found[2][BATCH_ROOM], *u = found[0], *v = found[1];
     for (uint32_t k = first, next; k < end; k = next) {
         next = k + 1;
         while (next < end && w->points.prim[next] == w->points.prim[k])

@@ -142,13 +142,13 @@ struct shade_batch {
     alignas(64) int64_t power[BATCH_ROOM]; /* of the highlight, where it is multiplied out */
     alignas(64) double b1[BATCH_ROOM], b2[BATCH_ROOM]; /* see struct hit; where shapes.weighted */
     uint32_t prim[BATCH_ROOM], surface[BATCH_ROOM];
-    uint32_t ray[BATCH];              /* place in the batch of rays */
-    uint32_t noted;                   /* so many are still noted to be the rays' own, on prim[0] */
-    bool in_order;                    /* point k is ray k's, for all rays */
-    bool one_surface;                 /* all lie on one */
-    bool plain;                       /* and none has a texture: all colours are the first's */
-    const double *t;                  /* distance along it: the hits' own or picked */
-    bool inside[BATCH]; /* refracted into the surface it meets: the far side of what it crossed */
+    uint32_t ray[BATCH]; /* place in the batch of rays */
+    uint32_t noted;      /* so many are still noted to be the rays' own, on prim[0] */
+    bool in_order;       /* point k is ray k's, for all rays */
+    bool one_surface;    /* all lie on one */
+    bool plain;          /* and none has a texture: all colours are the first's */
+    const double *t;     /* distance along it: the hits' own or picked */
+    bool inside[BATCH];  /* refracted into the surface it meets: the far side of what it crossed */
     const struct finish *finish[BATCH];
     /* What `finish`, `power`, `diffuse` and `specular` of so many points are still filled with. */
     const struct finish *filled_with;
@@ -211,8 +211,8 @@ struct textured {
 struct hit_shapes {
     uint32_t first[PRIM_KINDS + 1];
     alignas(64) uint32_t index[BATCH_ROOM]; /* of the shape, in the array of its kind */
-    const double *part;              /* of it: the hits' own or picked */
-    const struct vec3_batch *origin; /* of the ray: likewise */
+    const double *part;                     /* of it: the hits' own or picked */
+    const struct vec3_batch *origin;        /* of the ray: likewise */
     bool weighted; /* some surface has something to interpolate between corners */
     bool bent;     /* the normals of some are not the primitives': smooth, flipped */
 };
@@ -256,6 +256,10 @@ struct render_kernels {
      * where they are curved. */
     void (*hit_points)(const struct scene *scene, const struct hit_shapes *shapes,
                        struct shade_batch *points);
+    /* See sphere_uv in scene.h: of points first to end, and up to the next whole vector; u[0] and
+     * v[0] are the first's. */
+    void (*sphere_uv)(const struct sphere *sphere, const struct vec3_batch *points, uint32_t first,
+                      uint32_t end, double *u, double *v);
     /* The texture at n <= BATCH places. */
     void (*texels)(const struct texture *texture, const double *u, const double *v, uint32_t n,
                    struct vec3_batch *texels);

@@ -155,6 +155,8 @@ struct vec3 texture_fetch(const struct texture *t, double u, double v);
 
 /* Texture coordinates of a hit with unit sphere/cylinder/triangle parametrisation (surface.c);
  * p is the hit point.  Only for surfaces with needs_uv. */
+/* A sphere's: longitude from +x over +z, and latitude counted down from the north pole. */
+struct vec2 sphere_uv(const struct sphere *s, struct vec3 p);
 struct vec2 surface_uv(const struct scene *s, const struct surface *surface, const struct hit *hit,
                        struct vec3 p);
 

@@ -1,5 +1,6 @@
 #include "config.h"
 
+#include "math/angle.h"
 #include "scene/scene.h"
 
 static double clamp(double x, double lo, double hi)
@@ -7,20 +8,14 @@ static double clamp(double x, double lo, double hi)
     return x < lo ? lo : x > hi ? hi : x;
 }
 
-/* Longitude from +x over +z, and latitude counted down from the north pole. */
-static struct vec2 sphere_uv(const struct sphere *s, struct vec3 p)
+/* The original takes longitudes by asin(z / q) and latitudes by acos(y / radius): the same angles,
+ * less exact where these are steep. */
+struct vec2 sphere_uv(const struct sphere *s, struct vec3 p)
 {
     struct vec3 d = vec3_sub(p, s->center);
-    double phi = acos(clamp(d.y / s->radius, -1, 1));
     double q = sqrt(d.x * d.x + d.z * d.z);
-    if (q == 0)
-        return (struct vec2){0, -phi / PI};
-    double theta = asin(d.z / q);
-    if (d.x < 0)
-        theta = PI - theta;
-    if (theta < 0)
-        theta += 2 * PI;
-    return (struct vec2){theta / (2 * PI), -phi / PI};
+    double longitude = q == 0 ? 0 : angle_of(d.x, d.z), latitude = angle_of(d.y, q);
+    return (struct vec2){longitude * (1 / (2 * PI)), latitude * (-1 / PI)};
 }
 
 static struct vec2 cylinder_uv(const struct cylinder *c, struct vec3 point)

@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "image/codec.h"
+#include "math/angle.h"
 #include "math/rng.h"
 #include "math/srgb_bytes.h"
 #include "render/tracer.h"
@@ -142,6 +143,55 @@ static double coordinate_at(uint64_t run, uint32_t i, uint64_t what)
     double x = random_at(run, i, what);
     return i % 3 == 0 ? strange[(size_t)(x * STRANGE)] : 8 * (x - 0.5);
 }
+
+/* All over the turn, along axes and diagonals, and beside these. */
+START_TEST(angles_are_those_of_the_c_library)
+{
+    for (int i = 0; i < 4096; i++) {
+        double a = 2 * PI * i / 4096, r = ldexp(1, i % 7 - 3), x = r * cos(a), y = r * sin(a);
+        if (i % 512 == 0) {
+            x = (double)lround(x / r * 1.4);
+            y = (double)lround(y / r * 1.4);
+        } else if (i % 512 == 1) {
+            x = nextafter(y, 9);
+        }
+        long double expected = atan2l(y, x), turn = 4 * acosl(0);
+        expected = expected < 0 ? expected + turn : expected;
+        ck_assert_msg(fabsl(angle_of(x, y) - expected) < 0x1p-49L, "(%a, %a)", x, y);
+    }
+    ck_assert(angle_of(1, 0) == 0 && angle_of(-1, 0) == PI && angle_of(0, 1) == PI / 2);
+    ck_assert(angle_of(0, -1) == 3 * (PI / 2) && angle_of(1, -0x1p-60) == 2 * PI);
+}
+END_TEST
+
+/* Bit 0: not whole vectors. */
+START_TEST(coordinates_on_spheres_are_those_of_single_points)
+{
+    uint64_t run = (uint64_t)_i;
+    struct sphere sphere = {.center = random_vec3(run, 0, 20), .radius = 0.7};
+    struct vec3_batch points;
+    uint32_t n = run & 1 ? 21 : BATCH, first = (uint32_t)run;
+    for (uint32_t i = 0; i < BATCH_ROOM; i++) {
+        struct vec3 d = vec3_normalize(random_vec3(run, i, 0));
+        d = i % 5 == 1 ? vec3(0, i % 2 ? 1 : -1, 0) : i % 5 == 2 ? vec3(d.x, 0, 0) : d;
+        vec3_put(&points, i, vec3_mad(sphere.center, sphere.radius, d));
+    }
+    double u[BATCH_ROOM], v[BATCH_ROOM], expected_u[BATCH_ROOM], expected_v[BATCH_ROOM];
+    render_plain.sphere_uv(&sphere, &points, first, n, expected_u, expected_v);
+    for (uint32_t i = first; i < n; i++) {
+        struct vec2 uv = sphere_uv(&sphere, vec3_get(&points, i));
+        ck_assert(uv.x == expected_u[i - first] && uv.y == expected_v[i - first]);
+        ck_assert(uv.x >= 0 && uv.x <= 1 && uv.y >= -1 && uv.y <= 0);
+    }
+    for (int isa = ISA_GENERIC; isa < ISA_COUNT; isa++) {
+        if (!isa_available((enum isa)isa))
+            continue;
+        render_kernels_of((enum isa)isa)->sphere_uv(&sphere, &points, first, n, u, v);
+        check_same_numbers(u, expected_u, n - first);
+        check_same_numbers(v, expected_v, n - first);
+    }
+}
+END_TEST
 
 /* Bit 0: 16 bits a channel; bit 1: nearest; bit 2: not whole vectors; bit 3: modern; bit 4:
  * decoded. */
@@ -561,6 +611,8 @@ Suite *kernels_suite(void)
     Suite *s = suite_create("kernels");
     TCase *c = tcase_create("kernels");
     tcase_add_loop_test(c, bundles_meet_what_single_rays_meet, 0, 64);
+    tcase_add_test(c, angles_are_those_of_the_c_library);
+    tcase_add_loop_test(c, coordinates_on_spheres_are_those_of_single_points, 0, 8);
     tcase_add_loop_test(c, texels_are_those_of_single_places, 0, 32);
     tcase_add_test(c, bounds_hold_all_points);
     tcase_add_loop_test(c, modern_light_is_that_of_single_points, 0, 16);
