@@ -1,5 +1,6 @@
 #include "config.h"
 
+#include "accel/pieces.h"
 #include "accel/store.h"
 #include "accel/wide.h"
 
@@ -73,8 +74,9 @@ static void build_nodes(struct accel *a, struct sah *sah, const struct sah_run *
 static struct accel *build_prototypes(const struct geometry *g, const struct accel_options *options)
 {
     struct accel *a = g->prototypes.n ? mem_zalloc(g->prototypes.n, sizeof *a) : NULL;
-    struct accel_options own = *options;
+    struct accel_options own = *options; /* rays: each its part */
     own.spare = NULL;
+    own.rays = options->rays / (double)g->prototypes.n;
     for (size_t i = 0; i < g->instances.n; i++) {
         const struct instance *instance = &g->instances.at[i];
         struct accel *prototype = &a[instance->prototype];
@@ -90,6 +92,11 @@ static void build_tree(struct accel *a, const struct accel_options *options)
     struct sah sah;
     struct sah_run all = sah_init(&sah, a->geometry, a->targets, a->target_count,
                                   vectors ? WIDE : 1, options->threads);
+    if (vectors && options->rays > 0)
+        a->pieces = pieces_cut(&sah, &all, a->geometry, options->rays);
+    if (a->pieces > 0)
+        a->targets = mem_realloc(a->targets, sah.n, sizeof *a->targets);
+    a->target_count = sah.n;
     a->reach = fmax(vec3_largest(sah.bounds.lo), vec3_largest(sah.bounds.hi));
     if (vectors)
         a->wide = wide_build(a, &sah, &all, options->isa, options->threads);
@@ -152,6 +159,14 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
 {
     struct accel_options plain = {.brute_force = brute_force, .isa = ISA_PLAIN, .threads = 1};
     accel_build_with(a, geometry, &plain);
+}
+
+uint64_t accel_pieces(const struct accel *a)
+{
+    uint64_t sum = a->pieces;
+    for (size_t i = 0; a->prototypes && i < a->geometry->prototypes.n; i++)
+        sum += a->prototypes[i].pieces;
+    return sum;
 }
 
 void accel_free(struct accel *a)

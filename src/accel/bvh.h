@@ -21,8 +21,9 @@ struct bvh_node {
 struct accel {
     const struct geometry *geometry; /* borrowed */
     struct target *targets;          /* all primitives, leaf by leaf */
-    uint32_t target_count;
-    struct bvh_node *nodes; /* root first, or NULL */
+    uint32_t target_count;           /* pieces of one triangle count by themselves */
+    uint32_t pieces;                 /* more of them than there are primitives */
+    struct bvh_node *nodes;          /* root first, or NULL */
     uint32_t node_count;
     double reach;             /* largest |coordinate| of the geometry's bounds */
     double padding;           /* BOX_PADDING, times what instances add to rounding errors */
@@ -40,6 +41,7 @@ struct accel_options {
     unsigned threads;          /* >= 1 */
     const bool *spare;         /* primitives that are left out, or NULL: none */
     struct accel_store *store; /* trees of before that are taken where they fit; or NULL */
+    double rays;               /* that may come: they repay a better tree */
 };
 
 /* Deepest leaf below the root; bounds the stacks of tree walks. */
@@ -51,6 +53,9 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
 /* By plain code and one thread. */
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force);
 void accel_free(struct accel *a);
+
+/* The pieces of all its trees. */
+uint64_t accel_pieces(const struct accel *a);
 
 /* The nearest hit of the ray; *hit is filled in either case (hit_none when false). */
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit);

@@ -87,6 +87,19 @@ static float rounded_up(double x)
     return -rounded_down(-x);
 }
 
+static inline void set_box(struct sah_ref *r, struct box box)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        r->lo.axis[axis] = rounded_down(vec3_at(box.lo, axis));
+        r->hi.axis[axis] = rounded_up(vec3_at(box.hi, axis));
+    }
+}
+
+void sah_set_box(struct sah_ref *r, struct box box)
+{
+    set_box(r, box);
+}
+
 static void find_boxes(void *context, size_t item, unsigned worker)
 {
     struct sharing *w = context;
@@ -97,10 +110,7 @@ static void find_boxes(void *context, size_t item, unsigned worker)
     for (size_t i = item * AT_ONCE; i < w->sah->n && i < (item + 1) * AT_ONCE; i++) {
         struct box b = geometry_prim_bounds(w->geometry, w->targets[i].prim);
         struct sah_ref *r = &w->sah->refs[i];
-        for (int axis = 0; axis < 3; axis++) {
-            r->lo.axis[axis] = rounded_down((vec3_at(b.lo, axis) - f->center[axis]) * f->scale);
-            r->hi.axis[axis] = rounded_up((vec3_at(b.hi, axis) - f->center[axis]) * f->scale);
-        }
+        set_box(r, (struct box){tree_frame_point(f, b.lo), tree_frame_point(f, b.hi)});
         r->lo.tag = w->targets[i].prim + SAH_TAG;
         r->hi.tag = (w->targets[i].kind != PRIM_TRIANGLE) + SAH_TAG;
         share->box = joined(share->box, box_of(r));
@@ -242,6 +252,11 @@ static void take(struct sah_run *run, const struct sah_ref *r)
 {
     run->box = joined(run->box, box_of(r));
     run->centers = joined(run->centers, center_of(r));
+}
+
+void sah_take(struct sah_run *run, const struct sah_ref *r)
+{
+    take(run, r);
 }
 
 static void halve(struct sah *s, struct sah_run halves[2])

@@ -33,6 +33,17 @@ struct sah_ref {
 /* Added to tags, so that they are no denormal floats, which are slow to add. */
 enum { SAH_TAG = 1 << 30 };
 
+static inline struct vec3 tree_frame_point(const struct tree_frame *f, struct vec3 p)
+{
+    return vec3((p.x - f->center[0]) * f->scale, (p.y - f->center[1]) * f->scale,
+                (p.z - f->center[2]) * f->scale);
+}
+
+static inline bool sah_is_triangle(const struct sah_ref *r)
+{
+    return r->hi.tag == SAH_TAG;
+}
+
 static inline uint32_t sah_prim(const struct sah_ref *r)
 {
     return r->lo.tag - SAH_TAG;
@@ -52,7 +63,7 @@ struct sah_run {
 
 struct sah {
     struct sah_ref *refs; /* in the order of the runs */
-    uint32_t n;
+    uint32_t n;           /* some primitives may be there several times, in pieces */
     struct tree_frame frame;
     struct box bounds; /* of all of them */
     uint32_t leaf;     /* so many triangles stay together */
@@ -63,6 +74,11 @@ struct sah {
 struct sah_run sah_init(struct sah *s, const struct geometry *g, const struct target *targets,
                         uint32_t n, uint32_t leaf, unsigned threads);
 void sah_free(struct sah *s);
+
+/* Bounds a primitive by a box in the frame. */
+void sah_set_box(struct sah_ref *r, struct box box);
+/* Makes the run's boxes large enough for a primitive. */
+void sah_take(struct sah_run *run, const struct sah_ref *r);
 
 /* False when the run had better be a leaf. */
 bool sah_split(struct sah *s, const struct sah_run *run, struct sah_run halves[2]);

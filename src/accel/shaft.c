@@ -152,11 +152,20 @@ bool shaft_touches(const struct accel *a, const struct shaft *s, struct target t
     return target.kind != PRIM_TRIANGLE || s->endless || crosses_plane(a, s, target.index);
 }
 
+/* Pieces of a triangle are in several leaves. */
+static bool is_listed(const struct accel *a, const struct target_list *list, uint32_t prim)
+{
+    for (uint32_t i = 0; a->pieces > 0 && i < list->n; i++)
+        if (list->at[i].prim == prim)
+            return true;
+    return false;
+}
+
 static bool add_run(const struct accel *a, const struct shaft *s, const struct target *run,
                     uint32_t count, struct target_list *list)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (!shaft_touches(a, s, run[i]))
+        if (!shaft_touches(a, s, run[i]) || is_listed(a, list, run[i].prim))
             continue;
         if (list->n == TARGET_LIST_LIMIT || run[i].kind == PRIM_INSTANCE)
             return false;

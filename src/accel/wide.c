@@ -138,11 +138,27 @@ static void set_planes(struct wide_node *node, int child, const struct sah_box *
     }
 }
 
+/* Pieces of one triangle need be there but once: how many are left of the leaf. */
+static uint32_t drop_repeats(struct sah_ref *refs, uint32_t n)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t k = 0;
+        while (k < kept && sah_prim(&refs[k]) != sah_prim(&refs[i]))
+            k++;
+        if (k == kept)
+            refs[kept++] = refs[i];
+    }
+    return kept;
+}
+
 static struct wide_child leaf_of(struct builder *b, struct part *p, const struct sah_run *run)
 {
     struct leaf leaf = {run->begin, run->end - run->begin};
     if (leaf.count > WIDE || !sah_all_triangles(b->sah, run))
         return (struct wide_child){leaf.first, WIDE_RUN, leaf.count};
+    if (b->accel->pieces > 0)
+        leaf.count = drop_repeats(b->sah->refs + leaf.first, leaf.count);
     vec_push(&p->leaves, leaf);
     return (struct wide_child){(uint32_t)p->leaves.n - 1, WIDE_TRIANGLES, leaf.count};
 }

@@ -106,7 +106,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
                   skips_json(r, 0, SHADOW_SKIPS), "surfaces", (json_int_t)scene->surfaces.n,
                   "triangles", (json_int_t)count_triangles(scene), "skipped", skipped_names(scene),
                   "left_out", skips_json(r, SHADOW_SKIPS, SKIPS), "pruned", (json_int_t)r->pruned,
-                  "peak_rss_bytes", (json_int_t)stats_peak_rss()),
+                  "pieces", (json_int_t)r->pieces, "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
 
@@ -156,6 +156,9 @@ static void render_text(const struct run_stats *s, const struct options *o,
     fprintf(stderr,
             "seconds    parse %.4f, load %.4f, build %.4f, render %.4f, write %.4f; %.4f in all\n",
             s->parse_s, s->load_s, r->build_s, r->render_s, s->write_s, s->total_s);
+    if (r->pieces > 0)
+        fprintf(stderr, "tree       %llu pieces cut off large triangles\n",
+                (unsigned long long)r->pieces);
     fprintf(stderr,
             "rays       primary %llu, shadow %llu, reflection %llu, refraction %llu; %.2f million "
             "a second\n",

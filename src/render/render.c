@@ -166,10 +166,31 @@ static uint32_t note_dark_lamps(struct tracer *t)
     return dark;
 }
 
+/* Rays that the picture will take, or so. */
+static double likely_rays(const struct tracer *t)
+{
+    const struct render_options *o = t->options;
+    struct tiling tiling = tiling_of(o->crop.x0, o->crop.y0, o->crop.x1, o->crop.y1);
+    double share = o->watch.tiles ? (double)o->watch.tiles / (double)tiling.n : 1;
+    double samples = share * (double)tile_pixels(&tiling.whole) * o->grid * o->grid, shadow = 0;
+    bool bounces = false;
+    if (o->show != SHOW_PICTURE)
+        return samples;
+    for (size_t i = 0; i < t->scene->lights.n; i++)
+        shadow += fmax(1, (double)(t->lamps[i].samples - t->lamps[i].duplicates));
+    for (size_t i = 0; i < t->scene->materials.n; i++)
+        bounces |= t->finishes[i].bounces;
+    return samples * (1 + shadow) * (bounces && o->depth > 1 ? 2 : 1);
+}
+
 static void build_accel(struct tracer *t)
 {
     const struct render_options *o = t->options;
-    struct accel_options build = {o->brute_force, o->isa, o->threads, NULL, o->store};
+    struct accel_options build = {.brute_force = o->brute_force,
+                                  .isa = o->isa,
+                                  .threads = o->threads,
+                                  .store = o->store,
+                                  .rays = likely_rays(t)};
     bool *twins =
         tracer_skips(t, SKIP_TWINS) ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
     t->twins = twins ? find_twins(t, twins) : 0;
@@ -278,6 +299,7 @@ void rendering_end(struct rendering *r, struct render_stats *stats)
     *stats = r->stats;
     stats->skipped[SKIP_TWINS] = r->tracer.twins;
     stats->skipped[SKIP_DARK] = r->tracer.dark;
+    stats->pieces = accel_pieces(&r->tracer.accel);
     if (r->frame)
         stats->adaptive = adaptive_end(r->frame);
     for (unsigned i = 0; i < r->tracer.options->threads; i++) {

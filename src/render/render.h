@@ -79,6 +79,7 @@ struct render_stats {
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
     uint64_t skipped[SKIPS];
     uint64_t pruned; /* rays */
+    uint64_t pieces; /* cut off large triangles, for a better tree */
     struct adaptive_stats adaptive;
 };
 

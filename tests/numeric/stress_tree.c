@@ -136,7 +136,11 @@ static void try_scene(struct dice *d, enum scene scene, struct tally *tally)
     struct accel tree, brute;
     double size = magnitude(d, 1e-8, 1e8);
     fill_scene(d, &g, scene, size);
-    accel_build(&tree, &g, false);
+    struct accel_options options = {.isa = isa_best(), .threads = 1, .rays = below(d, 2) * 1e12};
+    if (below(d, 2))
+        accel_build_with(&tree, &g, &options);
+    else
+        accel_build(&tree, &g, false);
     accel_build(&brute, &g, true);
     for (int i = 0; i < RAYS_A_SCENE / 2; i++) {
         struct ray ray = any_ray(d, &g, size);

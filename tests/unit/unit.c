@@ -24,6 +24,7 @@ int main(void)
     srunner_add_suite(runner, formats_suite());
     srunner_add_suite(runner, mesh_suite());
     srunner_add_suite(runner, bvh_suite());
+    srunner_add_suite(runner, tree_suite());
     srunner_add_suite(runner, geometry_suite());
     srunner_add_suite(runner, instance_suite());
     srunner_add_suite(runner, cubature_suite());

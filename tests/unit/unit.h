@@ -38,5 +38,6 @@ Suite *syntax_suite(void);
 Suite *texture_suite(void);
 Suite *transform_suite(void);
 Suite *translate_suite(void);
+Suite *tree_suite(void);
 
 #endif
