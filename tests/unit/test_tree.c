@@ -122,11 +122,39 @@ START_TEST(pieces_cover_what_was_cut)
     ck_assert(boxes_area(&c.sah) < 0.5 * c.area);
     for (uint32_t i = 0; i < c.sah.n; i++) {
         struct sah_box box = {c.sah.refs[i].lo.planes, c.sah.refs[i].hi.planes};
-        for (int axis = 0; axis < 3; axis++)
+        for (int axis = 0; axis < 3; axis++) {
+            float center = box.lo[axis] + box.hi[axis];
             ck_assert(box.lo[axis] >= c.all.box.lo[axis] && box.hi[axis] <= c.all.box.hi[axis]);
+            ck_assert(center >= c.all.centers.lo[axis] && center <= c.all.centers.hi[axis]);
+        }
     }
     for (uint32_t prim = 0; prim < c.g.prims.n; prim++)
         for (int k = 0; k < 20 && c.g.prims.at[prim].kind == PRIM_TRIANGLE; k++)
+            ck_assert(
+                piece_holds(&c.sah, prim, tree_frame_point(&c.sah.frame, point_of(&c.g, prim))));
+    cut_up_free(&c);
+}
+END_TEST
+
+static struct vec3 whole_numbers(void)
+{
+    return vec3(below(17) - 8.0, below(17) - 8.0, below(17) - 8.0);
+}
+
+/* Corners, and ends of edges, lie on the planes of cuts. */
+START_TEST(corners_may_lie_on_cuts)
+{
+    struct cut_up c = {.added = 0};
+    counter = (uint64_t)_i << 40;
+    for (int i = 0; i < 100; i++) { /* in pairs, so that the frame's middle is the origin */
+        struct vec3 p = whole_numbers(), q = whole_numbers(), r = whole_numbers();
+        add_triangle(&c.g, p, q, r);
+        add_triangle(&c.g, vec3_neg(p), vec3_neg(q), vec3_neg(r));
+    }
+    cut_up(&c, MANY_RAYS);
+    ck_assert_uint_gt(c.added, 100);
+    for (uint32_t prim = 0; prim < c.g.prims.n; prim++)
+        for (int k = 0; k < 20; k++)
             ck_assert(
                 piece_holds(&c.sah, prim, tree_frame_point(&c.sah.frame, point_of(&c.g, prim))));
     cut_up_free(&c);
@@ -240,6 +268,7 @@ Suite *tree_suite(void)
     Suite *s = suite_create("tree");
     TCase *c = tcase_create("pieces");
     tcase_add_loop_test(c, pieces_cover_what_was_cut, 0, 5);
+    tcase_add_loop_test(c, corners_may_lie_on_cuts, 0, 5);
     tcase_add_test(c, rays_decide_how_much_is_cut);
     tcase_add_test(c, what_fills_its_box_stays_whole);
     tcase_add_test(c, pieces_are_limited);
