@@ -94,7 +94,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
     const struct render_stats *r = &s->render;
     print_json(
         json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:o*, s:{s:I, "
-                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I}",
+                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
