@@ -6,7 +6,7 @@
 static struct box classic_begin(struct worker *w)
 {
     const struct render_kernels *kernels = w->tracer->kernels;
-    kernels->fill(&w->light.direct, 0, w->points.n, vec3_all(0));
+    kernels->fill(w->light.direct, 0, w->points.n, vec3_all(0));
     if (w->points.any_bounces)
         kernels->fill(&w->light.intensity, 0, w->points.n, vec3_all(0));
     return kernels->bounds(&w->points.p, w->points.n);

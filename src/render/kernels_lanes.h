@@ -318,8 +318,8 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
         direct = v3_scale(direct, share);
         if (points->any_glowing)
             direct = v3_select(glowing_lanes(points, i), v3_load(&points->diffuse, i), direct);
-        struct vvec3 sum = v3_load(&sums->direct, i);
-        v3_store(&sums->direct, i, v3_select(lit, v3_add(sum, v3_mul(arriving, direct)), sum));
+        struct vvec3 sum = v3_load(sums->direct, i);
+        v3_store(sums->direct, i, v3_select(lit, v3_add(sum, v3_mul(arriving, direct)), sum));
     }
 }
 

@@ -129,8 +129,7 @@ static void add_light(const struct shade_batch *points, const struct light *ligh
             struct vec3 to_light = vec3_normalize(vec3_sub(light->position, s.p));
             direct = vec3_scale(direct_light(&s, to_light), shares[i]);
         }
-        vec3_put(&sums->direct, i,
-                 vec3_add(vec3_get(&sums->direct, i), vec3_mul(intensity, direct)));
+        vec3_put(sums->direct, i, vec3_add(vec3_get(sums->direct, i), vec3_mul(intensity, direct)));
     }
 }
 

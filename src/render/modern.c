@@ -71,8 +71,8 @@ void modern_add_light(const struct shade_batch *points, const struct light *ligh
             strength = light->inverse_square ? 1 / square : 1;
         }
         struct vec3 lit = vec3_mul(reflected_light(&p, to_light), light->intensity);
-        struct vec3 sum = vec3_get(&sums->direct, k);
-        vec3_put(&sums->direct, k, vec3_mad(sum, strength, lit));
+        struct vec3 sum = vec3_get(sums->direct, k);
+        vec3_put(sums->direct, k, vec3_mad(sum, strength, lit));
     }
 }
 
@@ -202,7 +202,7 @@ static void add_area(struct worker *w, const struct lamp *lamp, struct box box)
         }
         struct vec3 light =
             view == LAMP_OPEN ? open_light(w, lamp, k) : area_light(w, lamp, &own, k);
-        vec3_put(&w->light.direct, k, vec3_add(vec3_get(&w->light.direct, k), light));
+        vec3_put(w->light.direct, k, vec3_add(vec3_get(w->light.direct, k), light));
     }
 }
 
@@ -216,12 +216,12 @@ static struct box modern_begin(struct worker *w)
 {
     const struct shade_batch *points = &w->points;
     struct vec3 ambient = w->tracer->scene->ambient;
-    scale_all(w->light.direct.x, points->diffuse.x, ambient.x, points->n);
-    scale_all(w->light.direct.y, points->diffuse.y, ambient.y, points->n);
-    scale_all(w->light.direct.z, points->diffuse.z, ambient.z, points->n);
+    scale_all(w->light.direct->x, points->diffuse.x, ambient.x, points->n);
+    scale_all(w->light.direct->y, points->diffuse.y, ambient.y, points->n);
+    scale_all(w->light.direct->z, points->diffuse.z, ambient.z, points->n);
     for (uint32_t k = 0; k < points->n && points->any_glowing; k++)
         if (points->finish[k]->glows)
-            vec3_put(&w->light.direct, k, vec3_get(&points->diffuse, k));
+            vec3_put(w->light.direct, k, vec3_get(&points->diffuse, k));
     return w->tracer->kernels->bounds(shadow_origins(points), points->n);
 }
 

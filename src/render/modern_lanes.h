@@ -108,7 +108,7 @@ static void add_modern(const struct shade_batch *points, const struct light *lig
         if (!v_any(lit))
             continue;
         struct vseen s = seen_points(points, i);
-        struct vvec3 to_light = position, sum = v3_load(&sums->direct, i);
+        struct vvec3 to_light = position, sum = v3_load(sums->direct, i);
         vreal strength = v_all(1);
         if (light->kind == LIGHT_POINT) {
             struct vvec3 way = v3_sub(position, s.p);
@@ -117,7 +117,7 @@ static void add_modern(const struct shade_batch *points, const struct light *lig
             strength = light->inverse_square ? 1 / square : strength;
         }
         struct vvec3 reflected = v3_mul(lights_reflected(&s, to_light), intensity);
-        v3_store(&sums->direct, i, v3_select(lit, v3_mad(sum, strength, reflected), sum));
+        v3_store(sums->direct, i, v3_select(lit, v3_mad(sum, strength, reflected), sum));
     }
 }
 

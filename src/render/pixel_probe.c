@@ -81,9 +81,9 @@ static struct vec3 diffuse_part(struct worker *w, size_t k, struct box box)
     points->finish[0] = &matt;
     points->power[0] = 0;
     vec3_put(&points->specular, 0, vec3_all(0));
-    vec3_put(&w->light.direct, 0, vec3_all(0));
+    vec3_put(w->light.direct, 0, vec3_all(0));
     w->tracer->shading->add(w, k, box);
-    struct vec3 diffuse = vec3_get(&w->light.direct, 0);
+    struct vec3 diffuse = vec3_get(w->light.direct, 0);
     points->finish[0] = finish;
     points->power[0] = power;
     vec3_put(&points->specular, 0, specular);
@@ -96,14 +96,14 @@ static void probe_lights(struct probe *p, struct probe_ray *r)
     struct worker *w = p->worker;
     const struct tracer *t = w->tracer;
     struct box box = t->shading->begin(w);
-    r->without = vec3_get(&w->light.direct, 0);
+    r->without = vec3_get(w->light.direct, 0);
     r->lights = arena_zalloc(p->arena, t->scene->lights.n, sizeof *r->lights);
     for (size_t k = 0; k < t->scene->lights.n; k++) {
         struct probe_light *light = &r->lights[k];
-        struct vec3 before = vec3_get(&w->light.direct, 0);
+        struct vec3 before = vec3_get(w->light.direct, 0);
         light->diffuse = diffuse_part(w, k, box);
         t->shading->add(w, k, box);
-        struct vec3 added = vec3_sub(vec3_get(&w->light.direct, 0), before);
+        struct vec3 added = vec3_sub(vec3_get(w->light.direct, 0), before);
         bool dull = vec3_is_zero(w->points.finish[0]->specular) || w->points.finish[0]->glows;
         light->highlight = dull ? vec3_all(0) : vec3_sub(added, light->diffuse);
         if (!w->points.finish[0]->glows)
@@ -157,7 +157,7 @@ static struct probe_ray *probe_ray(struct probe *p, uint32_t depth, const struct
         return r;
     note_hit(w, r);
     probe_lights(p, r);
-    r->colour = vec3_get(&w->light.direct, 0);
+    r->colour = vec3_get(w->light.direct, 0);
     if (depth < t->options->depth && w->points.any_bounces)
         t->shading->spawn(w, level, path);
     r->reflected = probe_offspring(p, depth, &level->reflected, PROBE_REFLECTED, &r->colour);

@@ -82,18 +82,17 @@ static void store_tile(struct rendering *r, const struct tile *tile,
                        const struct vec3_batch *colours)
 {
     struct picture *out = r->out;
-    uint32_t width = tile->x1 - tile->x0, x = tile->x0 - r->tiling.whole.x0, n = 0;
+    const uint32_t width = tile->x1 - tile->x0, height = tile->y1 - tile->y0;
+    const uint32_t x = tile->x0 - r->tiling.whole.x0, y = tile->y0 - r->tiling.whole.y0;
     uint8_t pixels[PACKED_ROOM];
-    bool packed = out->bytes != NULL;
-    if (packed)
-        r->tracer.kernels->pack(out, colours, width * (tile->y1 - tile->y0), pixels);
-    for (uint32_t row = tile->y0; row < tile->y1; row++, n += width) {
-        uint32_t y = row - r->tiling.whole.y0;
-        if (packed)
-            picture_set_row(out, x, y, pixels + 3 * n, width);
-        for (uint32_t i = 0; i < width && !packed; i++)
-            picture_set(out, x + i, y, vec3_get(colours, n + i));
+    if (out->bytes) {
+        r->tracer.kernels->pack(out, colours, width * height, pixels);
+        for (uint32_t row = 0; row < height; row++)
+            picture_set_row(out, x, y + row, pixels + 3 * width * row, width);
+        return;
     }
+    for (uint32_t n = 0; n < width * height; n++)
+        picture_set(out, x + n % width, y + n / width, vec3_get(colours, n));
 }
 
 static void render_tile(void *context, size_t item, unsigned worker)

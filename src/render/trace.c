@@ -9,6 +9,7 @@ struct worker *worker_new(const struct tracer *tracer)
     struct worker *w = mem_alloc_aligned(1, sizeof *w);
     memset(w, 0, sizeof *w);
     w->tracer = tracer;
+    w->light.direct = &w->arrived;
     fill(w->ones, 0, BATCH_ROOM, 1);
     return w;
 }
@@ -68,16 +69,12 @@ static void add_lights(struct worker *w)
             shading->add(w, k, box);
 }
 
-/* What the rays see before others come back. */
+/* What the rays see before others come back, some of which hit nothing. */
 static void put_colours(const struct worker *w, uint32_t n, struct vec3_batch *colours)
 {
-    if (w->points.in_order) {
-        vec3_copy(colours, n, &w->light.direct);
-        return;
-    }
     vec3_fill(colours, 0, n, w->tracer->scene->background);
     for (uint32_t k = 0; k < w->points.n; k++)
-        vec3_put(colours, w->points.ray[k], vec3_get(&w->light.direct, k));
+        vec3_put(colours, w->points.ray[k], vec3_get(w->light.direct, k));
 }
 
 /* A ray's colour is its direct light, then its reflection, then its refraction: the order of the
@@ -88,9 +85,12 @@ void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
     find_points(w, rays, paths);
+    w->light.direct = w->points.in_order ? colours : &w->arrived;
     if (w->points.n > 0)
         add_lights(w);
-    put_colours(w, rays->n, colours);
+    if (!w->points.in_order)
+        put_colours(w, rays->n, colours);
+    w->light.direct = &w->arrived;
     if (depth < t->options->depth && w->points.any_bounces)
         t->shading->spawn(w, level, paths);
     if (t->most && depth < t->options->depth) {

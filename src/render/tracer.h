@@ -195,7 +195,7 @@ static inline struct shade_point shade_point_get(const struct shade_batch *b, ui
 
 /* Light that arrives at shade points. */
 struct light_batch {
-    struct vec3_batch direct;    /* reflected towards the eye */
+    struct vec3_batch *direct;   /* reflected towards the eye */
     struct vec3_batch intensity; /* where it bounces: sum over all lights, shadowed or not */
 };
 
@@ -333,6 +333,7 @@ struct worker {
     struct shade_batch points;
     struct textured bumps, paints; /* by normal maps, by textures */
     struct light_batch light;
+    struct vec3_batch arrived; /* what light.direct is but where it is the colours themselves */
     struct ray_batch shadow_rays;
     struct sample_batch jittered; /* samples of an area light for one point */
     alignas(64) double ones[BATCH_ROOM];
