@@ -58,11 +58,11 @@ uint64_t bundle_any(const struct accel *a, const struct bundle_kernels *kernels,
     uint64_t found = 0;
     if (list->usable)
         return list->n > 0 ? kernels->any(a->geometry, rays, list) : 0;
-    bool packet = as_packet(a, rays, true, &hits);
+    if (as_packet(a, rays, true, &hits))
+        return kernels->found(&hits, rays->n);
     for (uint32_t i = 0; i < rays->n; i++) {
         struct ray ray = ray_get(rays, i);
-        bool hit = packet ? hits.prim[i] != PRIM_NONE : accel_any(a, &ray);
-        found |= (uint64_t)hit << i;
+        found |= (uint64_t)accel_any(a, &ray) << i;
     }
     return found;
 }
@@ -82,15 +82,20 @@ static void closest_one_by_one(const struct geometry *g, const struct ray_batch 
     }
 }
 
+static uint64_t found_one_by_one(const struct hit_batch *hits, uint32_t n)
+{
+    uint64_t found = 0;
+    for (uint32_t i = 0; i < n; i++)
+        found |= (uint64_t)(hits->prim[i] != PRIM_NONE) << i;
+    return found;
+}
+
 static uint64_t any_one_by_one(const struct geometry *g, const struct ray_batch *rays,
                                const struct target_list *list)
 {
     struct hit_batch hits;
-    uint64_t found = 0;
     closest_one_by_one(g, rays, list, &hits);
-    for (uint32_t i = 0; i < rays->n; i++)
-        found |= (uint64_t)(hits.prim[i] != PRIM_NONE) << i;
-    return found;
+    return found_one_by_one(&hits, rays->n);
 }
 
-const struct bundle_kernels bundle_plain = {closest_one_by_one, any_one_by_one};
+const struct bundle_kernels bundle_plain = {closest_one_by_one, any_one_by_one, found_one_by_one};

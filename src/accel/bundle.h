@@ -24,6 +24,8 @@ struct bundle_kernels {
     /* Bit i: ray i hits something. */
     uint64_t (*any)(const struct geometry *g, const struct ray_batch *rays,
                     const struct target_list *list);
+    /* Bit i: hit i is one, of the first n > 0. */
+    uint64_t (*found)(const struct hit_batch *hits, uint32_t n);
 };
 
 extern const struct bundle_kernels bundle_plain, bundle_generic, bundle_avx2, bundle_avx512;

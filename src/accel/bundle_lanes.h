@@ -427,13 +427,12 @@ static void closest_in_list(const struct geometry *g, const struct ray_batch *ra
     }
 }
 
-/* Bit i: ray i has a hit. */
-static uint64_t rays_that_hit(const struct frame_batch *f)
+static uint64_t found_hits(const struct hit_batch *hits, uint32_t n)
 {
     uint64_t none = 0;
-    for (uint32_t i = 0; i < f->n; i += LANES)
-        none |= (uint64_t)v_bits(v_equal(v_load(f->hits->prim + i), v_all(PRIM_NONE))) << i;
-    return ~none & UINT64_MAX >> (BATCH - f->rays->n);
+    for (uint32_t i = 0; i < n; i += LANES)
+        none |= (uint64_t)v_bits(v_equal(v_load(hits->prim + i), v_all(PRIM_NONE))) << i;
+    return ~none & UINT64_MAX >> (BATCH - n);
 }
 
 static uint64_t any_in_list(const struct geometry *g, const struct ray_batch *rays,
@@ -448,9 +447,9 @@ static uint64_t any_in_list(const struct geometry *g, const struct ray_batch *ra
     frames_for_list(&f, g, rays, list, &hits);
     for (uint32_t k = 0; k < list->n && found != all; k++) {
         meet(&f, list->at[k]);
-        found = rays_that_hit(&f);
+        found = found_hits(&hits, rays->n);
     }
     return found;
 }
 
-const struct bundle_kernels BUNDLE_KERNELS = {closest_in_list, any_in_list};
+const struct bundle_kernels BUNDLE_KERNELS = {closest_in_list, any_in_list, found_hits};
