@@ -99,7 +99,7 @@ static void build_tree(struct accel *a, const struct accel_options *options)
     a->target_count = sah.n;
     a->reach = fmax(vec3_largest(sah.bounds.lo), vec3_largest(sah.bounds.hi));
     if (vectors)
-        a->wide = wide_build(a, &sah, &all, options->isa, options->threads);
+        a->wide = wide_build(a, &sah, &all, options->isa, options->threads, options->rays);
     else
         build_nodes(a, &sah, &all);
     sah_free(&sah);
@@ -161,11 +161,14 @@ void accel_build(struct accel *a, const struct geometry *geometry, bool brute_fo
     accel_build_with(a, geometry, &plain);
 }
 
-uint64_t accel_pieces(const struct accel *a)
+struct accel_efforts accel_efforts(const struct accel *a)
 {
-    uint64_t sum = a->pieces;
-    for (size_t i = 0; a->prototypes && i < a->geometry->prototypes.n; i++)
-        sum += a->prototypes[i].pieces;
+    struct accel_efforts sum = {a->pieces, a->wide ? a->wide->moves : 0};
+    for (size_t i = 0; a->prototypes && i < a->geometry->prototypes.n; i++) {
+        struct accel_efforts more = accel_efforts(&a->prototypes[i]);
+        sum.pieces += more.pieces;
+        sum.moves += more.moves;
+    }
     return sum;
 }
 

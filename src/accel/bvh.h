@@ -54,8 +54,13 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force);
 void accel_free(struct accel *a);
 
-/* The pieces of all its trees. */
-uint64_t accel_pieces(const struct accel *a);
+/* What made all its trees better. */
+struct accel_efforts {
+    uint64_t pieces; /* cut off large triangles */
+    uint64_t moves;  /* of subtrees */
+};
+
+struct accel_efforts accel_efforts(const struct accel *a);
 
 /* The nearest hit of the ray; *hit is filled in either case (hit_none when false). */
 bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit);

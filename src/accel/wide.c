@@ -2,6 +2,7 @@
 
 #include "accel/wide.h"
 
+#include "accel/reinsert.h"
 #include "base/thread.h"
 
 #include <string.h>
@@ -210,18 +211,92 @@ static void build_left(void *context, size_t item, unsigned worker)
     build_part(b, &b->parts[item + 1], &b->left.at[item].run);
 }
 
+/* ---- a better binary tree ---------------------------------------------------------------------
+ */
+
+/* Adds a twig of one of the parts and all below, in an order that does not depend on where the
+ * parts begin.  Returns the node's number; recursion is at most BVH_DEPTH_LIMIT deep. */
+static uint32_t add_node(struct reinsert_tree *t, const struct builder *b, const struct part *p,
+                         uint32_t number)
+{
+    const struct twig *twig = &p->twigs.at[number];
+    if (twig->kind == TWIG_LEFT) {
+        const struct part *branch = &b->parts[twig->fork[0] + 1];
+        return add_node(t, b, branch, (uint32_t)branch->twigs.n - 1);
+    }
+    uint32_t at = t->n++;
+    struct reinsert_node *n = &t->nodes[at];
+    *n = (struct reinsert_node){.box = twig->run.box, .child = {twig->run.begin, twig->run.end}};
+    for (int k = 0; k < 2 && twig->kind == TWIG_FORK; k++) {
+        n->child[k] = add_node(t, b, p, twig->fork[k]);
+        struct reinsert_node *child = &t->nodes[n->child[k]];
+        child->parent = at;
+        n->height = n->height > child->height ? n->height : child->height + 1;
+    }
+    return at;
+}
+
+/* The node and all below as twigs; returns its twig's number. */
+static uint32_t add_twig(struct part *p, const struct reinsert_tree *tree, uint32_t number)
+{
+    const struct reinsert_node *n = &tree->nodes[number];
+    struct twig t = {.run = {.box = n->box}, .kind = n->height > 0 ? TWIG_FORK : TWIG_LEAF};
+    if (t.kind == TWIG_LEAF) {
+        t.run.begin = n->child[0];
+        t.run.end = n->child[1];
+    } else {
+        t.fork[0] = add_twig(p, tree, n->child[0]);
+        t.fork[1] = add_twig(p, tree, n->child[1]);
+    }
+    find_costs(p, &t);
+    vec_push(&p->twigs, t);
+    return (uint32_t)p->twigs.n - 1;
+}
+
+/* Of all parts' twigs one tree, which is made better, and one part. */
+static void join_parts(struct builder *b, unsigned threads, unsigned rounds)
+{
+    struct part *p = &b->parts[0];
+    struct reinsert_tree tree = {.height_limit = BVH_DEPTH_LIMIT - 1};
+    size_t n = p->twigs.n;
+    for (size_t i = 0; i < b->left.n; i++)
+        n += b->parts[i + 1].twigs.n;
+    tree.nodes = mem_alloc_aligned(n, sizeof *tree.nodes);
+    add_node(&tree, b, p, (uint32_t)p->twigs.n - 1);
+    for (size_t i = 0; i <= b->left.n; i++)
+        vec_free(&b->parts[i].twigs);
+    b->left.n = 0;
+    b->wide->moves = reinsert(&tree, rounds, threads);
+    build_node(b, p, add_twig(p, &tree, 0));
+    vec_free(&p->twigs);
+    free(tree.nodes);
+}
+
+static void grow_left(void *context, size_t item, unsigned worker)
+{
+    struct builder *b = context;
+    (void)worker;
+    grow(b, &b->parts[item + 1], &b->left.at[item].run);
+}
+
 /* Above this many primitives threads pay. */
 enum { SHARED_LEAST = 10000, SHARES = 8 /* a thread */ };
 
-static void build_parts(struct builder *b, const struct sah_run *all, unsigned threads)
+static void build_parts(struct builder *b, const struct sah_run *all, unsigned threads,
+                        unsigned rounds)
 {
     struct part first = {0};
     b->small = threads > 1 && b->sah->n >= SHARED_LEAST ? b->sah->n / (SHARES * threads) : 0;
-    build_part(b, &first, all);
+    if (rounds > 0)
+        grow(b, &first, all);
+    else
+        build_part(b, &first, all);
     b->small = 0;
     b->parts = mem_zalloc(b->left.n + 1, sizeof *b->parts);
     b->parts[0] = first;
-    thread_share(b->left.n, threads, build_left, b);
+    thread_share(b->left.n, threads, rounds > 0 ? grow_left : build_left, b);
+    if (rounds > 0)
+        join_parts(b, threads, rounds);
 }
 
 /* Where the parts lie among all nodes and leaves. */
@@ -294,13 +369,13 @@ const struct wide_kernels *wide_kernels_of(enum isa isa)
 }
 
 struct wide *wide_build(const struct accel *a, struct sah *sah, const struct sah_run *all,
-                        enum isa isa, unsigned threads)
+                        enum isa isa, unsigned threads, double rays)
 {
     struct wide *w = mem_zalloc(1, sizeof *w);
     struct builder b = {.sah = sah, .accel = a, .wide = w};
     w->kernels = wide_kernels_of(isa);
     w->frame = sah->frame;
-    build_parts(&b, all, threads);
+    build_parts(&b, all, threads, reinsert_rounds(sah->n, rays));
     for (uint32_t i = 0; i < sah->n; i++)
         a->targets[i] = target_of(a->geometry, sah_prim(&sah->refs[i]));
     place_parts(&b);

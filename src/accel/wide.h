@@ -55,6 +55,7 @@ struct wide {
     struct wide_node *nodes; /* root first */
     struct triangle_block *blocks;
     uint32_t node_count, block_count;
+    uint32_t moves; /* of subtrees, that made it better */
 };
 
 /* Each level takes up to WIDE - 1 children to come back to. */
@@ -65,7 +66,7 @@ const struct wide_kernels *wide_kernels_of(enum isa isa);
 
 /* Of an accel whose geometry is set and whose targets have room; puts them in order. */
 struct wide *wide_build(const struct accel *a, struct sah *sah, const struct sah_run *all,
-                        enum isa isa, unsigned threads);
+                        enum isa isa, unsigned threads, double rays);
 void wide_free(struct wide *w);
 
 /* traverse.c: the best hit of a run of targets; with any_hit, the first found ends the search, and

@@ -94,7 +94,7 @@ static void render_json(const struct run_stats *s, const struct options *o,
     const struct render_stats *r = &s->render;
     print_json(
         json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:o*, s:{s:I, "
-                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:I, s:I}",
+                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:{s:I, s:I}, s:I}",
                   "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
                   r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
                   (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
@@ -106,7 +106,8 @@ static void render_json(const struct run_stats *s, const struct options *o,
                   skips_json(r, 0, SHADOW_SKIPS), "surfaces", (json_int_t)scene->surfaces.n,
                   "triangles", (json_int_t)count_triangles(scene), "skipped", skipped_names(scene),
                   "left_out", skips_json(r, SHADOW_SKIPS, SKIPS), "pruned", (json_int_t)r->pruned,
-                  "pieces", (json_int_t)r->pieces, "peak_rss_bytes", (json_int_t)stats_peak_rss()),
+                  "tree", "pieces", (json_int_t)r->tree.pieces, "moves", (json_int_t)r->tree.moves,
+                  "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
 
@@ -156,9 +157,9 @@ static void render_text(const struct run_stats *s, const struct options *o,
     fprintf(stderr,
             "seconds    parse %.4f, load %.4f, build %.4f, render %.4f, write %.4f; %.4f in all\n",
             s->parse_s, s->load_s, r->build_s, r->render_s, s->write_s, s->total_s);
-    if (r->pieces > 0)
-        fprintf(stderr, "tree       %llu pieces cut off large triangles\n",
-                (unsigned long long)r->pieces);
+    if (r->tree.pieces + r->tree.moves > 0)
+        fprintf(stderr, "tree       %llu pieces cut off large triangles, %llu subtrees moved\n",
+                (unsigned long long)r->tree.pieces, (unsigned long long)r->tree.moves);
     fprintf(stderr,
             "rays       primary %llu, shadow %llu, reflection %llu, refraction %llu; %.2f million "
             "a second\n",

@@ -298,7 +298,7 @@ void rendering_end(struct rendering *r, struct render_stats *stats)
     *stats = r->stats;
     stats->skipped[SKIP_TWINS] = r->tracer.twins;
     stats->skipped[SKIP_DARK] = r->tracer.dark;
-    stats->pieces = accel_pieces(&r->tracer.accel);
+    stats->tree = accel_efforts(&r->tracer.accel);
     if (r->frame)
         stats->adaptive = adaptive_end(r->frame);
     for (unsigned i = 0; i < r->tracer.options->threads; i++) {

@@ -2,7 +2,7 @@
 #ifndef WRT_RENDER_RENDER_H
 #define WRT_RENDER_RENDER_H
 
-#include "base/isa.h"
+#include "accel/bvh.h"
 #include "image/picture.h"
 #include "scene/scene.h"
 
@@ -79,7 +79,7 @@ struct render_stats {
     uint64_t primary, shadow, reflection, refraction; /* rays traced */
     uint64_t skipped[SKIPS];
     uint64_t pruned; /* rays */
-    uint64_t pieces; /* cut off large triangles, for a better tree */
+    struct accel_efforts tree;
     struct adaptive_stats adaptive;
 };
 

@@ -8,7 +8,10 @@
 #include "tries.h"
 
 #include "accel/pieces.h"
+#include "accel/reinsert.h"
 #include "accel/wide.h"
+
+#include <string.h>
 
 #define MANY_RAYS 1e12
 
@@ -206,6 +209,133 @@ START_TEST(pieces_are_limited)
 }
 END_TEST
 
+/* ---- subtrees in better places ----------------------------------------------------------------
+ */
+
+static struct sah_box joined(struct sah_box a, struct sah_box b)
+{
+    return (struct sah_box){four_min(a.lo, b.lo), four_max(a.hi, b.hi)};
+}
+
+static struct sah_box some_box(double size)
+{
+    struct vec3 at = random_vector(1), more = vec3_add(at, vec3_all(uniform(0, size)));
+    return (struct sah_box){{(float)at.x, (float)at.y, (float)at.z, 0},
+                            {(float)more.x, (float)more.y, (float)more.z, 0}};
+}
+
+/* Of leaves as they come: low, or one chain.  A leaf's first child is its number. */
+static struct reinsert_tree some_tree(uint32_t leaves, bool chain, double size)
+{
+    struct reinsert_tree t = {.n = 2 * leaves - 1, .height_limit = 80};
+    t.nodes = mem_alloc_aligned(t.n, sizeof *t.nodes);
+    memset(t.nodes, 0, t.n * sizeof *t.nodes);
+    for (uint32_t i = 0, next = 1; i < t.n; i++) {
+        struct reinsert_node *n = &t.nodes[i];
+        if (next == t.n || (chain && i > 0 && i % 2 == 1)) {
+            n->box = some_box(size);
+            n->child[0] = i;
+            continue;
+        }
+        n->height = 1;
+        for (int k = 0; k < 2; k++) {
+            n->child[k] = next++;
+            t.nodes[n->child[k]].parent = i;
+        }
+    }
+    for (uint32_t i = t.n; i-- > 0;) {
+        struct reinsert_node *n = &t.nodes[i], *a = &t.nodes[n->child[0]];
+        const struct reinsert_node *b = &t.nodes[n->child[1]];
+        if (n->height == 0)
+            continue;
+        n->box = joined(a->box, b->box);
+        n->height = 1 + (a->height > b->height ? a->height : b->height);
+    }
+    return t;
+}
+
+/* Sum of the areas from a node on; marks the leaves. */
+static double check_below(const struct reinsert_tree *t, uint32_t at, bool *seen)
+{
+    const struct reinsert_node *n = &t->nodes[at];
+    if (n->height == 0) {
+        ck_assert_uint_eq(n->child[0], at);
+        ck_assert(!seen[at]);
+        seen[at] = true;
+        return 0;
+    }
+    const struct reinsert_node *a = &t->nodes[n->child[0]], *b = &t->nodes[n->child[1]];
+    struct sah_box box = joined(a->box, b->box);
+    ck_assert(memcmp(&box, &n->box, sizeof box) == 0);
+    ck_assert_uint_eq(n->height, 1 + (a->height > b->height ? a->height : b->height));
+    double sum = (double)sah_area(&box);
+    for (int k = 0; k < 2; k++) {
+        ck_assert_uint_eq(t->nodes[n->child[k]].parent, at);
+        sum += check_below(t, n->child[k], seen);
+    }
+    return sum;
+}
+
+static double checked_area(const struct reinsert_tree *t)
+{
+    bool *seen = mem_zalloc(t->n, sizeof *seen);
+    double area = check_below(t, 0, seen);
+    uint32_t leaves = 0;
+    for (uint32_t i = 0; i < t->n; i++)
+        leaves += seen[i];
+    ck_assert_uint_eq(2 * leaves, t->n + 1);
+    free(seen);
+    return area;
+}
+
+START_TEST(moves_lose_nothing_and_gain)
+{
+    counter = (uint64_t)_i << 40;
+    bool chain = _i % 2;
+    struct reinsert_tree t = some_tree(chain ? 70 : 1000 + below(1000), chain, 0.2), other = t;
+    other.nodes = mem_alloc_aligned(t.n, sizeof *t.nodes);
+    memcpy(other.nodes, t.nodes, t.n * sizeof *t.nodes);
+    double area = checked_area(&t);
+    t.height_limit = other.height_limit = t.nodes[0].height + (chain ? 0 : 2);
+    for (unsigned rounds = 1; rounds < 6; rounds++) {
+        uint32_t moves = reinsert(&t, rounds, 1);
+        double less = checked_area(&t);
+        ck_assert(less <= area * (1 + 1e-6));
+        ck_assert(moves == 0 || less < area);
+        ck_assert(rounds > 1 || (moves > 0 && less < 0.9 * area));
+        ck_assert_uint_le(t.nodes[0].height, t.height_limit);
+        ck_assert_uint_eq(reinsert(&other, rounds, 3), moves);
+        ck_assert(memcmp(t.nodes, other.nodes, t.n * sizeof *t.nodes) == 0);
+        area = less;
+    }
+    free(t.nodes);
+    free(other.nodes);
+}
+END_TEST
+
+/* Where nothing can be gained, and in the least of trees. */
+START_TEST(moves_end)
+{
+    for (uint32_t leaves = 1; leaves < 600; leaves += leaves < 5 ? 1 : 200) {
+        struct reinsert_tree t = some_tree(leaves, false, 0);
+        for (uint32_t i = 0; i < t.n; i++)
+            t.nodes[i].box = t.nodes[0].box;
+        ck_assert_uint_eq(reinsert(&t, 5, 2), 0);
+        checked_area(&t);
+        free(t.nodes);
+    }
+}
+END_TEST
+
+START_TEST(rays_decide_how_much_is_moved)
+{
+    ck_assert_uint_eq(reinsert_rounds(1000, 0), 0);
+    ck_assert_uint_eq(reinsert_rounds(1000, 40e3), 0);
+    ck_assert_uint_eq(reinsert_rounds(1000, 60e3), 3);
+    ck_assert_uint_eq(reinsert_rounds(1000, 1e6), 5);
+}
+END_TEST
+
 /* ---- trees ------------------------------------------------------------------------------------
  */
 
@@ -243,7 +373,8 @@ START_TEST(better_trees_hold_everything)
     struct accel_options options = {
         .isa = ISA_GENERIC, .threads = 1 + (unsigned)_i % 2, .rays = MANY_RAYS};
     accel_build_with(&a, &g, &options);
-    ck_assert_uint_gt(accel_pieces(&a), 0);
+    ck_assert_uint_gt(accel_efforts(&a).pieces, 0);
+    ck_assert_uint_gt(accel_efforts(&a).moves, 0);
     ck_assert_uint_eq(a.target_count, g.prims.n + a.pieces);
     for (uint32_t prim = 0; prim < g.prims.n; prim++)
         for (int k = 0; k < 5 && g.prims.at[prim].kind == PRIM_TRIANGLE; k++)
@@ -263,6 +394,31 @@ START_TEST(better_trees_hold_everything)
 }
 END_TEST
 
+/* So many primitives that threads share them. */
+START_TEST(better_trees_do_not_depend_on_threads)
+{
+    struct geometry g = {0};
+    struct accel trees[2];
+    counter = 0;
+    add_planks(&g, 6000);
+    for (int i = 0; i < 2; i++) {
+        struct accel_options options = {
+            .isa = ISA_GENERIC, .threads = i ? 3 : 1, .rays = MANY_RAYS};
+        accel_build_with(&trees[i], &g, &options);
+    }
+    const struct wide *a = trees[0].wide, *b = trees[1].wide;
+    ck_assert_uint_gt(a->moves, 0);
+    ck_assert_uint_eq(a->moves, b->moves);
+    ck_assert_uint_eq(a->node_count, b->node_count);
+    ck_assert_uint_eq(a->block_count, b->block_count);
+    ck_assert(memcmp(a->nodes, b->nodes, a->node_count * sizeof *a->nodes) == 0);
+    ck_assert(memcmp(a->blocks, b->blocks, a->block_count * sizeof *a->blocks) == 0);
+    accel_free(&trees[0]);
+    accel_free(&trees[1]);
+    geometry_free(&g);
+}
+END_TEST
+
 Suite *tree_suite(void)
 {
     Suite *s = suite_create("tree");
@@ -273,8 +429,14 @@ Suite *tree_suite(void)
     tcase_add_test(c, what_fills_its_box_stays_whole);
     tcase_add_test(c, pieces_are_limited);
     suite_add_tcase(s, c);
+    c = tcase_create("moves");
+    tcase_add_loop_test(c, moves_lose_nothing_and_gain, 0, 8);
+    tcase_add_test(c, moves_end);
+    tcase_add_test(c, rays_decide_how_much_is_moved);
+    suite_add_tcase(s, c);
     c = tcase_create("trees");
     tcase_add_loop_test(c, better_trees_hold_everything, 0, 4);
+    tcase_add_test(c, better_trees_do_not_depend_on_threads);
     suite_add_tcase(s, c);
     return s;
 }
