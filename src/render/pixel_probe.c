@@ -73,6 +73,7 @@ static struct vec3 diffuse_part(struct worker *w, size_t k, struct box box)
     const struct finish *finish = points->finish[0];
     struct finish matt = *finish;
     struct light_batch light = w->light;
+    struct vec3 direct = vec3_get(w->light.direct, 0);
     struct vec3 specular = vec3_get(&points->specular, 0);
     int64_t power = points->power[0];
     matt.specular = vec3_all(0);
@@ -88,6 +89,7 @@ static struct vec3 diffuse_part(struct worker *w, size_t k, struct box box)
     points->power[0] = power;
     vec3_put(&points->specular, 0, specular);
     w->light = light;
+    vec3_put(w->light.direct, 0, direct);
     return diffuse;
 }
 

@@ -218,14 +218,16 @@ enum { BOUNCES = 1000 };
 static struct vec3 mirrored_classic(struct vec3 d, struct vec3 normal)
 {
     struct shade_batch points;
-    struct vec3_batch directions;
+    struct vec3_batch incoming;
+    struct ray_batch rays;
     memset(&points, 0, sizeof points);
     points.n = 1;
-    vec3_put(&points.incoming, 0, d);
+    points.incoming = &incoming;
+    vec3_put(&incoming, 0, d);
     vec3_put(&points.normal, 0, normal);
     points.facing[0] = vec3_dot(normal, d);
-    render_plain.reflect(&points, &directions);
-    return vec3_get(&directions, 0);
+    render_plain.reflect(&points, &rays);
+    return vec3_get(&rays.direction, 0);
 }
 
 static struct vec3 mirrored_modern(struct vec3 d, struct vec3 normal)
