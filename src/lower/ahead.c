@@ -35,8 +35,10 @@ static void foresee_texture(struct lowering *l, bool *seen, const struct desc_va
         add(l, (struct lower_ahead){.path = lower_path_of(l, file)});
 }
 
+/* Nothing where meshes cannot be used. */
 static void foresee_mesh(struct lowering *l, const struct desc_object *o)
 {
+#ifdef HAVE_OPENMESH
     const struct desc_value *file = o->kind == KIND_MESH ? desc_get(o, PROP_MESH_FILE) : NULL;
     char *data;
     size_t n;
@@ -48,6 +50,9 @@ static void foresee_mesh(struct lowering *l, const struct desc_object *o)
     const struct source *s = srcmap_add(l->sources, path, data, n);
     if (s)
         add(l, (struct lower_ahead){.path = path, .source = s});
+#else
+    (void)l, (void)o;
+#endif
 }
 
 static void decode_texture(const struct lowering *l, struct lower_ahead *a)
@@ -95,9 +100,7 @@ void lower_look_ahead(struct lowering *l, unsigned threads)
         const struct desc_value *material = desc_get(o, PROP_MATERIAL);
         foresee_texture(l, seen, desc_get(o, PROP_NORMAL_MAP));
         foresee_texture(l, seen, material ? desc_get(material->object, PROP_TEXTURE) : NULL);
-#ifdef HAVE_OPENMESH
         foresee_mesh(l, o);
-#endif
     }
     free(seen);
     if (l->ahead.n > 1)
