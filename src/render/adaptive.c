@@ -192,7 +192,7 @@ static size_t order_tiles(struct frame *f, double target)
  * done over again at each step costs less than the step itself. */
 static void render_until(struct frame *f)
 {
-    enum { COARSEST = 64, STEP = 4 };
+    enum { STEP = 4 };
     double wanted = f->tracer->options->adaptive;
     for (uint32_t stride = COARSEST; stride > 0; stride /= 2)
         first_middles(f, stride, stride < COARSEST);

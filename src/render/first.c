@@ -23,7 +23,7 @@ static void sample_points(void *context, size_t number, unsigned worker)
     struct colour *to[BATCH];
     double x[BATCH_ROOM], y[BATCH_ROOM];
     uint32_t n = 0;
-    if ((p->may_stop && frame_late(f, worker)) || frame_given_up(f))
+    if ((p->may_stop && frame_late(f, worker)) || frame_given_up(f) || f->workers[worker]->given_up)
         return;
     for (uint32_t row = tile.y0; row < tile.y1; row++) {
         for (uint32_t column = tile.x0; column < tile.x1; column++) {
@@ -37,6 +37,8 @@ static void sample_points(void *context, size_t number, unsigned worker)
     if (n == 0)
         return;
     frame_trace(f, worker, x, y, n);
+    if (f->workers[worker]->given_up)
+        return;
     for (uint32_t k = 0; k < n; k++) {
         struct vec3 c = vec3_get(&f->workers[worker]->colours, k);
         *to[k] = (struct colour){(float)c.x, (float)c.y, (float)c.z, true, true};
@@ -74,9 +76,9 @@ static struct vec3 vec3_of(const struct colour *c)
 struct vec3 first_nearby(const struct frame *f, uint32_t x, uint32_t y)
 {
     const struct colour *c = f->middle + frame_pixel(f, x, y);
-    for (uint32_t stride = 2; !c->seen; stride *= 2)
+    for (uint32_t stride = 2; !c->seen && stride <= COARSEST; stride *= 2)
         c = f->middle + frame_pixel(f, x & ~(stride - 1), y & ~(stride - 1));
-    return vec3_of(c);
+    return c->seen ? vec3_of(c) : vec3_all(0);
 }
 
 bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first *first)

@@ -55,7 +55,8 @@ struct frame {
 /* Whether another batch could end too late. */
 bool frame_late(const struct frame *f, unsigned worker);
 void frame_report(struct frame *f, unsigned worker);
-/* The colours at n <= BATCH places, in pixels, come into the worker's `colours`. */
+/* The colours at n <= BATCH places, in pixels, come into the worker's `colours`; they are none
+ * where it has given up. */
 void frame_trace(struct frame *f, unsigned worker, double *x, double *y, uint32_t n);
 
 /* Whether nothing more is begun; in a limited time that only makes it late. */
@@ -71,6 +72,9 @@ static inline size_t frame_pixel(const struct frame *f, uint32_t x, uint32_t y)
 
 /* ---- first.c ---- */
 
+/* Pixels between those that are sampled first in a limited time. */
+enum { COARSEST = 64 };
+
 /* The middles of every stride-th pixel of every stride-th row, and all corners, where they are
  * wanted and not known yet; stops when it is late, if it may. */
 void first_middles(struct frame *f, uint32_t stride, bool may_stop);
@@ -84,7 +88,8 @@ struct first {
 };
 /* false when they are not all known. */
 bool first_of_pixel(const struct frame *f, uint32_t x, uint32_t y, struct first *first);
-/* What stands for such a pixel: the middle of its block in the finest stride that is known. */
+/* What stands for such a pixel: the middle of its block in the finest stride that is known, or
+ * black. */
 struct vec3 first_nearby(const struct frame *f, uint32_t x, uint32_t y);
 struct estimate first_estimate(const struct frame *f, const struct first *first);
 

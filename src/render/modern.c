@@ -159,7 +159,7 @@ static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
                               const struct target_list *list, uint32_t k)
 {
     struct vec3 gives[BATCH], sum = vec3_all(0);
-    for (uint32_t number = 0; number < lamp->light->samples.n;) {
+    for (uint32_t number = 0; number < lamp->light->samples.n && !worker_gives_up(w);) {
         number = aim_at_samples(w, lamp, k, number, gives);
         uint64_t blocked = find_blocked(w, list);
         for (uint32_t i = 0; i < w->shadow_rays.n; i++)
@@ -172,7 +172,8 @@ static struct vec3 area_light(struct worker *w, const struct lamp *lamp,
 static struct vec3 open_light(struct worker *w, const struct lamp *lamp, uint32_t k)
 {
     struct vec3 sum = vec3_all(0);
-    for (uint32_t number = 0; number < lamp->light->samples.n; number += BATCH) {
+    for (uint32_t number = 0; number < lamp->light->samples.n && !worker_gives_up(w);
+         number += BATCH) {
         const struct sample_batch *samples = samples_for(w, lamp, k, number);
         struct vec3_batch gives;
         w->tracer->kernels->give(&w->points, k, lamp->light, samples, &gives);

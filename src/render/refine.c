@@ -299,9 +299,12 @@ void refine_tile(void *context, size_t item, unsigned worker)
     for (uint32_t y = r->tile.y0; y < r->tile.y1; y++)
         for (uint32_t x = r->tile.x0; x < r->tile.x1; x++)
             take_pixel(f, r, x, y);
-    while (r->n > 0 && !frame_late(f, worker))
+    const bool *given_up = &f->workers[worker]->given_up;
+    while (r->n > 0 && !frame_late(f, worker) && !*given_up)
         cut_active(f, r, worker);
-    for (uint32_t i = 0; i < r->n; i++)
+    if (*given_up && f->deadline == INFINITY)
+        return;
+    for (uint32_t i = 0; i < r->n && !*given_up; i++)
         finish_pixel(f, r, &r->active[i], false);
     bool last = f->deadline == INFINITY || frame_late(f, worker);
     *tally = tally_of(f, &r->tile, last);

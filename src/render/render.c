@@ -111,6 +111,8 @@ static void render_tile(void *context, size_t item, unsigned worker)
         w->stats.primary += rays->n;
         show_batch(w, rays, r->range, !r->out->floats, &w->sums);
     }
+    if (w->given_up)
+        return;
     store_tile(r, &tile, &w->sums);
     render_tell_finished(r->tracer.options, number);
     report_progress(r, worker);

@@ -123,7 +123,7 @@ static double sampled_share(struct worker *w, const struct lamp *lamp,
                             const struct target_list *list, struct vec3 p, uint32_t prim)
 {
     uint64_t counted = 0, lit = 0;
-    for (size_t k = 0; k < lamp->point_batches; k++) {
+    for (size_t k = 0; k < lamp->point_batches && !worker_gives_up(w); k++) {
         uint32_t room[BATCH];
         const uint32_t *counts;
         aim_at_points(w, lamp, k, p, prim, room, &counts);

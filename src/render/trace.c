@@ -1,5 +1,6 @@
 #include "config.h"
 
+#include "base/thread.h"
 #include "render/tracer.h"
 
 #include <string.h>
@@ -9,6 +10,7 @@ struct worker *worker_new(const struct tracer *tracer)
     struct worker *w = mem_alloc_aligned(1, sizeof *w);
     memset(w, 0, sizeof *w);
     w->tracer = tracer;
+    w->until = INFINITY;
     w->light.direct = &w->arrived;
     fill(w->ones, 0, BATCH_ROOM, 1);
     return w;
@@ -20,6 +22,22 @@ void worker_free(struct worker *w)
         free(w->levels.at[i]);
     vec_free(&w->levels);
     free(w);
+}
+
+/* Seconds that work under way may still take. */
+#define PATIENCE 1.0
+
+bool worker_has_waited(struct worker *w)
+{
+    const struct render_options *o = w->tracer->options;
+    if (w->given_up)
+        return true;
+    double now = thread_seconds(), asked = render_stopped(o) ? now : INFINITY;
+    if (o->deadline > 0 && o->deadline < asked)
+        asked = o->deadline;
+    w->until = fmin(w->until, asked + PATIENCE);
+    w->given_up = now > w->until;
+    return w->given_up;
 }
 
 static struct level *level_new(void)
@@ -82,6 +100,10 @@ static void put_colours(const struct worker *w, uint32_t n, struct vec3_batch *c
 void trace_batch(struct worker *w, uint32_t depth, const struct ray_batch *rays,
                  const struct path *paths, struct vec3_batch *colours)
 {
+    if (worker_gives_up(w)) {
+        vec3_fill(colours, 0, rays->n, vec3_all(0));
+        return;
+    }
     struct level *level = level_at(w, depth);
     const struct tracer *t = w->tracer;
     find_points(w, rays, paths);

@@ -337,6 +337,8 @@ struct worker {
     struct ray_batch shadow_rays;
     struct sample_batch jittered; /* samples of an area light for one point */
     alignas(64) double ones[BATCH_ROOM];
+    double until;  /* thread_seconds() when it gives up; infinite while nobody waits */
+    bool given_up; /* what it has traced since is nothing */
 };
 
 /* lamp.c */
@@ -413,6 +415,16 @@ static inline struct path *spawn_ray(struct offspring *o, const struct shade_bat
     vec3_put(&o->rays.direction, i, direction);
     o->rays.from[i] = points->prim[k];
     return &o->paths[i];
+}
+
+/* trace.c: whether what is under way is to be given up: it went on too long after somebody wanted
+ * an end, or after the deadline.  One ray can give rise to 2^depth others, each with shadow rays to
+ * all lights. */
+bool worker_has_waited(struct worker *w);
+static inline bool worker_gives_up(struct worker *w)
+{
+    const struct render_options *o = w->tracer->options;
+    return (render_stopped(o) || o->deadline > 0) && worker_has_waited(w);
 }
 
 /* trace.c: the level of this depth, emptied; levels are made one after another. */

@@ -235,6 +235,28 @@ make_light_samples()
     echo 'light area { position: (0, 4, 0)  size: 1  intensity: 1  samples: 1000000000 }'
 }
 
+# A pixel of which takes minutes: each ray gives rise to two, and all see twenty area lights.
+make_rays()
+{
+    echo 'wrt 1
+model modern
+camera { eye: (0, 4, -7)  look_at: 0  fov: 50deg  resolution: (2000, 1500) }
+settings { depth: 16  samples: 16 }
+for i in range(20) {
+    light area { shape: sphere  size: 3  position: (i, 6, -5)  intensity: 60  samples: 128 }
+}
+for i in range(500) {
+    sphere { center: 4 * (rand(i) - 0.5, rand(i, 1) - 0.5, rand(i, 2) - 0.5)  radius: 0.3
+             material: glass { diffuse: 0.3  specular: 0.5  exponent: 5  reflection: 0.5
+                               refraction: 0.5  ior: 1.5 } }
+}'
+}
+
+make_rays_ended()
+{
+    make_rays
+}
+
 make_resolution()
 {
     whole | sed 's/(8, 8)/(1000000000, 1000000000)/'
