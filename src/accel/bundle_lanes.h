@@ -113,12 +113,15 @@ static inline bool offer(struct frame_batch *f, uint32_t i, vreal t, uint32_t pr
 /* ---- spheres, see sphere_distance -------------------------------------------------------------
  */
 
-static void meet_sphere(struct frame_batch *f, struct target target)
+/* parts: bit j stands for rays PART j to PART (j + 1) - 1; returns those in which there are hits.
+ */
+static unsigned meet_sphere(struct frame_batch *f, struct target target, unsigned parts)
 {
     const struct sphere *s = &f->geometry->spheres.at[target.index];
     vreal zero = v_all(0), r2 = v_all(s->radius * s->radius);
     struct vvec3 center = v3_all(s->center);
-    for (uint32_t i = 0; i < f->n; i += LANES) {
+    unsigned met = 0;
+    for (uint32_t i = next_lanes(f, &parts, 0); i < f->n; i = next_lanes(f, &parts, i + LANES)) {
         struct vvec3 d = v3_load(&f->rays->direction, i);
         struct vvec3 o = v3_sub(v3_load(&f->rays->origin, i), center);
         vreal b = -v3_dot(o, d), c = v3_dot(o, o) - r2;
@@ -135,8 +138,10 @@ static void meet_sphere(struct frame_batch *f, struct target target)
         vreal q = b + v_copysign(v_sqrt(v_load(f->square + i) * discriminant), b);
         vreal t = v_select(v_less(zero, c) | v_less(q, zero), c / q, q * inverse);
         t = v_select(on, 2 * ahead, t);
-        offer(f, i, v_select(may, t, zero), target.prim, zero);
+        if (offer(f, i, v_select(may, t, zero), target.prim, zero))
+            met |= 1u << i / PART;
     }
+    return met;
 }
 
 /* ---- cylinders, see cylinder_distance ----------------------------------------------------------
@@ -188,13 +193,14 @@ static inline vmask clip_to_caps(const struct cylinder *c, struct vvec3 m, struc
     return v_not(across) | (v_at_most(to_base, zero) & v_at_most(zero, to_top));
 }
 
-static void meet_cylinder(struct frame_batch *f, struct target target)
+static unsigned meet_cylinder(struct frame_batch *f, struct target target, unsigned parts)
 {
     const struct cylinder *c = &f->geometry->cylinders.at[target.index];
     double reach = vec3_largest(c->base) + c->height + c->radius;
     vreal zero = v_all(0), r2 = v_all(c->radius * c->radius);
     struct vvec3 base = v3_all(c->base), axis = v3_all(c->axis);
-    for (uint32_t i = 0; i < f->n; i += LANES) {
+    unsigned met = 0;
+    for (uint32_t i = next_lanes(f, &parts, 0); i < f->n; i = next_lanes(f, &parts, i + LANES)) {
         struct vvec3 d = v3_load(&f->rays->direction, i);
         struct vvec3 m = v3_sub(v3_load(&f->rays->origin, i), base), w = v3_cross_plain(m, axis);
         vreal off = v3_dot(d, w);
@@ -207,9 +213,11 @@ static void meet_cylinder(struct frame_batch *f, struct target target)
         may &= clip_to_caps(c, m, d, rounding, &s);
         may &= v_at_most(s.t[0], s.t[1]);
         vmask first = v_less(zero, s.t[0]);
-        offer(f, i, v_select(may, v_select(first, s.t[0], s.t[1]), zero), target.prim,
-              v_select(first, s.part[0], s.part[1]));
+        if (offer(f, i, v_select(may, v_select(first, s.t[0], s.t[1]), zero), target.prim,
+                  v_select(first, s.part[0], s.part[1])))
+            met |= 1u << i / PART;
     }
+    return met;
 }
 
 /* ---- triangles, see triangle_meets_axis and triangle_distance ----------------------------------
@@ -309,8 +317,7 @@ static vreal clamped_to_bounds(const struct geometry *g, const struct triangle *
     return v_select(v_at_most(t, far), t, far);
 }
 
-/* parts: bit j stands for rays PART j to PART (j + 1) - 1; returns those in which there are hits.
- * The corners are the target's; of a common origin they are seen alike by all rays. */
+/* The corners are the target's; of a common origin they are seen alike by all rays. */
 static inline unsigned meet_triangle_along(struct frame_batch *f, struct target target,
                                            const struct vec3 corner[3], unsigned parts, int axis,
                                            bool common_origin)
@@ -382,18 +389,17 @@ static unsigned meet_triangle(struct frame_batch *f, struct target target,
 /* ---- the list -----------------------------------------------------------------------------------
  */
 
-static void meet(struct frame_batch *f, struct target target)
+/* Returns the parts in which there are hits. */
+static unsigned meet(struct frame_batch *f, struct target target, unsigned parts)
 {
     if (target.kind == PRIM_SPHERE)
-        meet_sphere(f, target);
-    else if (target.kind == PRIM_CYLINDER)
-        meet_cylinder(f, target);
-    else {
-        const uint32_t *vertex = f->geometry->triangles.at[target.index].vertex;
-        const struct vec3 *v = f->geometry->vertices.at;
-        meet_triangle(f, target, (struct vec3[]){v[vertex[0]], v[vertex[1]], v[vertex[2]]},
-                      ALL_PARTS);
-    }
+        return meet_sphere(f, target, parts);
+    if (target.kind == PRIM_CYLINDER)
+        return meet_cylinder(f, target, parts);
+    const uint32_t *vertex = f->geometry->triangles.at[target.index].vertex;
+    const struct vec3 *v = f->geometry->vertices.at;
+    return meet_triangle(f, target, (struct vec3[]){v[vertex[0]], v[vertex[1]], v[vertex[2]]},
+                         parts);
 }
 
 static void frames_for_list(struct frame_batch *f, const struct geometry *g,
@@ -423,7 +429,7 @@ static void closest_in_list(const struct geometry *g, const struct ray_batch *ra
     for (uint32_t k = 0; k < list->n; k++) {
         if (list->nearest[k] > 0 && list->nearest[k] > farthest_hit(&f))
             break;
-        meet(&f, list->at[k]);
+        meet(&f, list->at[k], parts_of_rays(&f));
     }
 }
 
@@ -446,7 +452,7 @@ static uint64_t any_in_list(const struct geometry *g, const struct ray_batch *ra
     const uint64_t all = UINT64_MAX >> (BATCH - rays->n);
     frames_for_list(&f, g, rays, list, &hits);
     for (uint32_t k = 0; k < list->n && found != all; k++) {
-        meet(&f, list->at[k]);
+        meet(&f, list->at[k], parts_of_rays(&f));
         found = found_hits(&hits, rays->n);
     }
     return found;

@@ -149,7 +149,7 @@ static unsigned meet_seen_block(struct packet *p, const struct triangle_block *b
     struct aspects seen;
     unsigned met = 0;
     if (!p->parted)
-        make_aspects(p);
+        make_all_parts(p);
     unsigned overlapping = find_aspects(p, block, &seen) & ((1u << count) - 1);
     for (; overlapping; overlapping &= overlapping - 1) {
         int i = __builtin_ctz(overlapping);
@@ -169,7 +169,7 @@ static unsigned meet_block(struct packet *p, const struct triangle_block *block,
         if (!touched_triangles(&p->whole, &c))
             continue;
         if (!p->parted)
-            make_parts(p);
+            make_all_parts(p);
         for (unsigned j = 0; PART * j < p->frames->n; j++) {
             unsigned of_part = touched_triangles(&p->part[j], &c) << i;
             touched |= of_part;
@@ -184,36 +184,100 @@ static unsigned meet_block(struct packet *p, const struct triangle_block *block,
     return met;
 }
 
-/* A run may hold instances, which take rays one by one. */
-static void meet_run(struct packet *p, struct wide_child run)
+/* ---- primitives of any kind, by their boxes ---------------------------------------------------
+ */
+
+static inline bool box_outside(const struct wedge *w, const struct range *x, const struct range *k)
+{
+    double low = fmax(-w->slope[0] * k->lo, -w->slope[0] * k->hi);
+    double high = fmin(-w->slope[1] * k->lo, -w->slope[1] * k->hi);
+    return x->hi + low < w->bound[0] || x->lo + high > w->bound[1];
+}
+
+/* b: along the packet's axes. */
+static inline bool box_touched(const struct pyramid *y, const struct range b[3], bool down)
+{
+    return !((down ? -b[2].hi : b[2].lo) > y->far || box_outside(&y->side[0], &b[0], &b[2]) ||
+             box_outside(&y->side[1], &b[1], &b[2]));
+}
+
+/* What the box is as a triangle is by find_aspects, of which this is the first. */
+static inline void find_aspect_of_box(const struct packet *p, const struct range b[3],
+                                      struct aspects *seen)
+{
+    float near = (float)(b[2].lo - p->apex[2]), far = (float)(b[2].hi - p->apex[2]);
+    seen->way[0] = p->ahead ? near : -far;
+    for (int side = 0; side < 2; side++) {
+        float lo = (float)(b[side].lo - p->apex[side]), hi = (float)(b[side].hi - p->apex[side]);
+        float slope[4] = {lo / near, lo / far, hi / near, hi / far};
+        seen->least[side][0] = fminf(fminf(slope[0], slope[1]), fminf(slope[2], slope[3]));
+        seen->most[side][0] = fmaxf(fmaxf(slope[0], slope[1]), fmaxf(slope[2], slope[3]));
+    }
+}
+
+/* The parts of the rays that may touch the box. */
+static unsigned parts_near(struct packet *p, const struct box *box)
+{
+    struct range b[3];
+    unsigned near = 0;
+    for (int side = 0; side < 3; side++)
+        b[side] = (struct range){vec3_at(box->lo, p->axis[side]), vec3_at(box->hi, p->axis[side])};
+    if (!box_touched(&p->whole, b, p->down))
+        return 0;
+    if (!p->parted)
+        make_all_parts(p);
+    if (p->has_apex) {
+        struct aspects seen;
+        find_aspect_of_box(p, b, &seen);
+        return overlapped_parts(p, &seen, 0) & parts_of_rays(p->frames);
+    }
+    for (unsigned j = 0; PART * j < p->frames->n; j++)
+        near |= (unsigned)box_touched(&p->part[j], b, p->down) << j;
+    return near;
+}
+
+static void meet_instance(struct packet *p, uint32_t k)
 {
     struct frame_batch *f = p->frames;
+    for (uint32_t i = 0; i < f->rays->n; i++) {
+        struct ray ray = ray_get(f->rays, i);
+        struct ray_frame frame = ray_frame_of(&ray);
+        struct hit hit = hit_get(f->hits, i);
+        accel_try_run(p->accel, k, 1, &ray, &frame, p->any, &hit);
+        hit_put(f->hits, i, &hit);
+    }
+}
+
+/* Returns the parts that met something; instances take rays one by one. */
+static unsigned meet_run(struct packet *p, struct wide_child run)
+{
+    const struct geometry *g = p->accel->geometry;
+    unsigned met = 0;
     for (uint32_t k = run.first; k < run.first + run.count; k++) {
         struct target target = p->accel->targets[k];
-        if (target.kind != PRIM_INSTANCE) {
-            meet(f, target);
-            continue;
-        }
-        for (uint32_t i = 0; i < f->rays->n; i++) {
-            struct ray ray = ray_get(f->rays, i);
-            struct ray_frame frame = ray_frame_of(&ray);
-            struct hit hit = hit_get(f->hits, i);
-            accel_try_run(p->accel, k, 1, &ray, &frame, p->any, &hit);
-            hit_put(f->hits, i, &hit);
+        struct box box = target_bounds(g, target);
+        unsigned parts = parts_near(p, &box);
+        if (parts && target.kind != PRIM_INSTANCE) {
+            met |= meet(p->frames, target, parts);
+        } else if (parts) {
+            meet_instance(p, k);
+            met = parts_of_rays(p->frames);
         }
     }
+    return met;
 }
 
 /* ---- the tree -------------------------------------------------------------------------------- */
 
-/* Rays to a light that meet more leaves together have little in common and are better off alone. */
-enum { LEAVES_LIMIT = 48 };
+/* Rays to a light that meet more leaves together have little in common and are better off alone,
+ * and so are any that meet more primitives of other kinds than triangles. */
+enum { LEAVES_LIMIT = 48, OTHERS_LIMIT = 24 };
 
 /* False when it is given up. */
 static bool walk_packet(struct packet *p)
 {
     const struct wide *wide = p->accel->wide;
-    int leaves = 0;
+    uint32_t leaves = 0, others = 0;
     struct wide_pending stack[WIDE_STACK], *top = stack;
     alignas(32) float enter[WIDE];
     *top++ = (struct wide_pending){&WIDE_ROOT, -INFINITY};
@@ -236,8 +300,10 @@ static bool walk_packet(struct packet *p)
             met =
                 p->has_apex ? meet_seen_block(p, block, at.count) : meet_block(p, block, at.count);
         } else if (at.count > 0) {
-            meet_run(p, at);
-            met = parts_of_rays(p->frames);
+            others += at.count;
+            if (others > OTHERS_LIMIT)
+                return false;
+            met = meet_run(p, at);
         }
     }
     return true;

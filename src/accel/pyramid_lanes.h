@@ -264,7 +264,6 @@ static void make_aspects(struct packet *p)
         p->outline.least[side] = f_least(p->aspects.least[side]);
         p->outline.most[side] = f_most(p->aspects.most[side]);
     }
-    p->parted = true;
 }
 
 static void make_parts(struct packet *p)
@@ -272,6 +271,15 @@ static void make_parts(struct packet *p)
     for (uint32_t j = 0; PART * j < p->frames->n; j++)
         for (int side = 0; side < 2; side++)
             p->part[j].side[side] = wedge_around(p, side, PART * j, PART * j + PART);
+}
+
+/* What leaves need. */
+static void make_all_parts(struct packet *p)
+{
+    if (p->has_apex)
+        make_aspects(p);
+    else
+        make_parts(p);
     p->parted = true;
 }
 

@@ -131,21 +131,11 @@ static bool touches_cylinder(const struct shaft *s, const struct cylinder *c)
     return false;
 }
 
-/* Of spheres without a detour. */
-static struct box bounds_of(const struct geometry *g, struct target target)
-{
-    if (target.kind != PRIM_SPHERE)
-        return geometry_prim_bounds(g, target.prim);
-    const struct sphere *s = &g->spheres.at[target.index];
-    return (struct box){vec3_sub(s->center, vec3_all(s->radius)),
-                        vec3_add(s->center, vec3_all(s->radius))};
-}
-
 bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target)
 {
     if (target.kind == PRIM_TRIANGLE && target.prim == s->from)
         return false;
-    if (!touches(s, bounds_of(a->geometry, target)))
+    if (!touches(s, target_bounds(a->geometry, target)))
         return false;
     if (target.kind == PRIM_CYLINDER)
         return touches_cylinder(s, &a->geometry->cylinders.at[target.index]);

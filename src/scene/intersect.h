@@ -16,6 +16,16 @@ static inline struct target target_of(const struct geometry *g, uint32_t prim)
     return (struct target){prim, p.kind, p.index};
 }
 
+/* As geometry_prim_bounds, for spheres without a detour. */
+static inline struct box target_bounds(const struct geometry *g, struct target target)
+{
+    if (target.kind != PRIM_SPHERE)
+        return geometry_prim_bounds(g, target.prim);
+    const struct sphere *s = &g->spheres.at[target.index];
+    return (struct box){vec3_sub(s->center, vec3_all(s->radius)),
+                        vec3_add(s->center, vec3_all(s->radius))};
+}
+
 /* |p - center|^2 - radius^2 of a point with f = p - center and largest coordinate `reach`; exactly
  * 0 when it lies on the sphere within the tolerance. */
 static inline double sphere_power(const struct sphere *s, struct vec3 f, double reach,
