@@ -73,7 +73,7 @@ for signal in INT TERM; do
     [ $status = $expected ] || complain "SIG$signal: status $status, not $expected"
     [ -s picture.partial.png ] && [ -s journal ] && [ ! -e picture.png ] ||
         complain "SIG$signal left $(echo *)"
-    grep -q "% of the picture, which is in 'picture.partial.png'" err || complain "said: $(cat err)"
+    grep -q "^wrt: ended by SIG$signal with .* % of the picture, which is in 'picture.partial.png'" err || complain "said: $(cat err)"
     render picture.png "${slow[@]}" --checkpoint journal --resume
     cmp -s whole.png picture.png || complain "SIG$signal: other bytes"
     [ ! -e picture.partial.png ] || complain "SIG$signal: the picture so far is still there"

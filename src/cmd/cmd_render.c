@@ -131,6 +131,20 @@ static void share_tiles(struct render_run *r)
     r->stats.ranks = cluster_ranks(r->cluster);
 }
 
+/* What the statistics are of. */
+static void note_share(struct render_run *r)
+{
+    struct run_stats *s = &r->stats;
+    s->resumed = r->options->resume;
+    s->tiles = r->expected;
+    s->from_journal = r->finished;
+    s->pixels = r->tiles ? 0 : tile_pixels(&r->tiling.whole);
+    for (size_t i = 0; r->tiles && i < r->tile_count; i++) {
+        struct tile t = tiling_at(&r->tiling, r->tiles[i]);
+        s->pixels += tile_pixels(&t);
+    }
+}
+
 static void render(struct render_run *r)
 {
     struct render_options *to = &r->render;
@@ -144,6 +158,7 @@ static void render(struct render_run *r)
         to->watch = (struct render_watch){note_tile, r, &interrupt_flag, tiles};
     r->finished = r->journal ? journal_tiles(r->journal) : 0;
     r->expected = r->finished + tiles;
+    note_share(r);
     r->rendering = rendering_begin(&r->lowered.scene, to, r->picture);
     if (r->cluster)
         share_tiles(r);
@@ -203,6 +218,15 @@ static int prepare(struct render_run *r)
     return agree_on_scene(r);
 }
 
+/* Of a frame that stays as it is; the exit status. */
+static int keep_frame(struct render_run *r, bool leads)
+{
+    r->stats.total_s = thread_seconds() - r->started;
+    if (leads)
+        stats_print_render(&r->stats, r->options, &r->lowered.scene);
+    return 0;
+}
+
 int render_picture(struct render_run *r)
 {
     bool leads = cluster_rank(r->cluster) == 0;
@@ -210,9 +234,9 @@ int render_picture(struct render_run *r)
     int status = prepare(r);
     if (status != 0)
         return status;
-    bool there = r->frames && leads && render_frame_is_there(r);
-    if (cluster_tell(r->cluster, there))
-        return 0;
+    r->stats.kept = r->frames && leads && render_frame_is_there(r);
+    if (cluster_tell(r->cluster, r->stats.kept))
+        return keep_frame(r, leads);
     status = (int)cluster_tell(r->cluster, leads ? (uint64_t)render_open_journal(r) : 0);
     if (status != 0)
         return status;

@@ -11,4 +11,7 @@ void interrupt_catch(void);
 /* 0, or the signal that came. */
 extern volatile sig_atomic_t interrupt_flag;
 
+/* What it is called. */
+const char *interrupt_name(int number);
+
 #endif

@@ -148,7 +148,7 @@ bool render_frame_is_there(struct render_run *r)
     uint64_t check = check_of(&r->head), file;
     const struct record *last = find_record(f);
     bool there = last && last->check == check && !hash_file(r->output, &file) && file == last->file;
-    if (there && r->options->verbose)
+    if (there && r->options->verbose && r->options->stats != STATS_TEXT)
         fprintf(stderr, "wrt: '%s' is there and stays\n", r->output);
     return there;
 }
@@ -218,7 +218,8 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
                            .checkpoint = journal,
                            .frames = f,
                            .files = files,
-                           .cluster = f->cluster};
+                           .cluster = f->cluster,
+                           .stats = {.file = name, .frame = f->frame}};
     r.render.store = trees;
     int status = render_picture(&r);
     render_run_free(&r);

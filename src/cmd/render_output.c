@@ -270,7 +270,7 @@ int render_finish(struct render_run *r)
 static void tell_share(const struct render_run *r, int number)
 {
     size_t have = atomic_load(&r->finished), all = r->head.parts ? r->expected : r->tiling.n;
-    fprintf(stderr, "wrt: ended by signal %d ", number);
+    fprintf(stderr, "wrt: ended by %s ", interrupt_name(number));
     if (r->options->time > 0)
         fputs("before the time was over", stderr);
     else

@@ -39,7 +39,7 @@ static void print_json(json_t *object, const struct options *o)
 /* Samples a pixel. */
 static double samples_mean(const struct run_stats *s)
 {
-    return (double)s->render.primary / ((double)s->width * s->height);
+    return s->pixels ? (double)s->render.primary / (double)s->pixels : 0;
 }
 
 static json_t *samples_json(const struct run_stats *s, const struct options *o)
@@ -59,7 +59,7 @@ static json_t *cluster_json(const struct run_stats *s)
 /* Whether no pixel has enough samples for its error to be told. */
 static bool error_unknown(const struct run_stats *s)
 {
-    return s->render.adaptive.unfinished == (uint64_t)s->width * s->height;
+    return s->render.adaptive.unfinished == s->pixels;
 }
 
 static json_t *error_json(const struct run_stats *s, double error)
@@ -88,26 +88,45 @@ static json_t *skips_json(const struct render_stats *r, int first, int end)
     return counts;
 }
 
+static json_t *frame_json(const struct run_stats *s)
+{
+    if (!s->file)
+        return NULL;
+    json_t *name = json_string(s->file);
+    return json_pack("{s:I, s:o, s:b}", "number", (json_int_t)s->frame, "file",
+                     name ? name : json_string("(not UTF-8)"), "kept", s->kept);
+}
+
+/* Where counts are those of some tiles only, which. */
+static json_t *resumed_json(const struct run_stats *s)
+{
+    if (!s->resumed)
+        return NULL;
+    return json_pack("{s:I, s:I}", "all", (json_int_t)s->tiles, "from_journal",
+                     (json_int_t)s->from_journal);
+}
+
 static void render_json(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
     const struct render_stats *r = &s->render;
     print_json(
-        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:o*, s:{s:I, "
-                  "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:{s:I, s:I}, s:I}",
-                  "parse_s", s->parse_s, "load_s", s->load_s, "build_s", r->build_s, "render_s",
-                  r->render_s, "write_s", s->write_s, "total_s", s->total_s, "threads",
-                  (int)o->threads, "isa", isa_name(o->isa), "width", (int)s->width, "height",
-                  (int)s->height, "samples", samples_json(s, o), "adaptive", adaptive_json(s, o),
-                  "mpi", cluster_json(s), "rays", "primary", (json_int_t)r->primary, "shadow",
-                  (json_int_t)r->shadow, "reflection", (json_int_t)r->reflection, "refraction",
-                  (json_int_t)r->refraction, "shadow_rays_skipped",
-                  (json_int_t)shadow_rays_skipped(r), "shadow_rays_skipped_as",
-                  skips_json(r, 0, SHADOW_SKIPS), "surfaces", (json_int_t)scene->surfaces.n,
-                  "triangles", (json_int_t)count_triangles(scene), "skipped", skipped_names(scene),
-                  "left_out", skips_json(r, SHADOW_SKIPS, SKIPS), "pruned", (json_int_t)r->pruned,
-                  "tree", "pieces", (json_int_t)r->tree.pieces, "moves", (json_int_t)r->tree.moves,
-                  "peak_rss_bytes", (json_int_t)stats_peak_rss()),
+        json_pack(
+            "{s:o*, s:o*, s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:s, s:i, s:i, s:o, s:o*, s:o*, "
+            "s:{s:I, "
+            "s:I, s:I, s:I}, s:I, s:o, s:I, s:I, s:o, s:o, s:I, s:{s:I, s:I}, s:I}",
+            "frame", frame_json(s), "tiles", resumed_json(s), "parse_s", s->parse_s, "load_s",
+            s->load_s, "build_s", r->build_s, "render_s", r->render_s, "write_s", s->write_s,
+            "total_s", s->total_s, "threads", (int)o->threads, "isa", isa_name(o->isa), "width",
+            (int)s->width, "height", (int)s->height, "samples", samples_json(s, o), "adaptive",
+            adaptive_json(s, o), "mpi", cluster_json(s), "rays", "primary", (json_int_t)r->primary,
+            "shadow", (json_int_t)r->shadow, "reflection", (json_int_t)r->reflection, "refraction",
+            (json_int_t)r->refraction, "shadow_rays_skipped", (json_int_t)shadow_rays_skipped(r),
+            "shadow_rays_skipped_as", skips_json(r, 0, SHADOW_SKIPS), "surfaces",
+            (json_int_t)scene->surfaces.n, "triangles", (json_int_t)count_triangles(scene),
+            "skipped", skipped_names(scene), "left_out", skips_json(r, SHADOW_SKIPS, SKIPS),
+            "pruned", (json_int_t)r->pruned, "tree", "pieces", (json_int_t)r->tree.pieces, "moves",
+            (json_int_t)r->tree.moves, "peak_rss_bytes", (json_int_t)stats_peak_rss()),
         o);
 }
 
@@ -136,11 +155,26 @@ static void adaptive_text(const struct run_stats *s, const struct options *o)
                 (unsigned long long)a->unfinished);
 }
 
+/* What the lines behind are of. */
+static void share_text(const struct run_stats *s)
+{
+    if (s->file)
+        fprintf(stderr, "frame      %u: '%s'%s\n", s->frame, s->file,
+                s->kept ? " is there and stays" : "");
+    if (s->resumed && !s->kept)
+        fprintf(stderr,
+                "tiles      %zu, %zu of them from the journal; what follows is of the others\n",
+                s->tiles, s->from_journal);
+}
+
 static void render_text(const struct run_stats *s, const struct options *o,
                         const struct scene *scene)
 {
     const struct render_stats *r = &s->render;
     uint64_t rays = r->primary + r->shadow + r->reflection + r->refraction;
+    share_text(s);
+    if (s->kept)
+        return;
     fprintf(stderr, "picture    %u x %u, ", s->width, s->height);
     if (o->adaptive > 0)
         fprintf(stderr, "%.2f samples a pixel, ", samples_mean(s));

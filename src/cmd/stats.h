@@ -13,11 +13,17 @@ uint64_t stats_peak_rss(void);
 struct run_stats {
     double parse_s, load_s, write_s, total_s;
     uint32_t width, height;
-    uint32_t grid; /* samples along each side of a pixel */
+    uint32_t grid;   /* samples along each side of a pixel */
+    uint64_t pixels; /* of the tiles that were rendered */
     struct render_stats render;
     bool late; /* --time ended the work */
     int ranks; /* 0: there is no cluster */
     struct cluster_stats cluster;
+    const char *file; /* of the frame; NULL: the picture is none */
+    uint32_t frame;
+    bool kept;                  /* it was there, and nothing was done */
+    bool resumed;               /* --resume */
+    size_t tiles, from_journal; /* of the picture or part, and that the journal had */
 };
 
 void stats_print_render(const struct run_stats *s, const struct options *o,
