@@ -46,10 +46,10 @@ rules()
 # "name<tab>summary" of each command
 commands() { "$WRT" --help | awk '/^commands:/ { on = 1; next } !NF { on = 0 } on { s = $0; sub(/^.*[^ ]  +/, "", s); print $1 "\t" s }'; }
 # "letter<tab>name<tab>argument<tab>help" of each option of a command, `.` for what it does not have;
-# an argument in brackets may be left out
+# an argument in brackets may be left out; formats that only some builds have are not told
 options()
 {
-    "$WRT" "$1" --help | awk '
+    "$WRT" "$1" --help | sed 's/, \.pfm and \.exr/ and .pfm/; s/, 32 or 16 in \.exr//' | awk '
         /^options:/ { on = 1; next }
         !NF { on = 0 }
         on {

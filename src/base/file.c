@@ -153,6 +153,45 @@ char *file_meant(const struct file_fence *fence, const char *path, size_t from)
     return meant;
 }
 
+/* The name up to its last dot; the name goes on behind the slice. */
+static struct str stem_of(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return (struct str){name, dot ? (size_t)(dot - name) : strlen(name)};
+}
+
+/* Suffixes of pictures, or of meshes, are as near to each other: a scene is no mesh. */
+static bool same_use(struct str stem, struct str other)
+{
+    enum { JPG_TO_PNG = 2 };
+    return str_distance(str_of(stem.at + stem.n), str_of(other.at + other.n)) <= JPG_TO_PNG;
+}
+
+char *file_nearest(const struct file_fence *fence, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *reason;
+    size_t n = (size_t)(name - path);
+    struct str_nearest nearest = str_nearest_to(stem_of(name));
+    struct dirent **names = NULL;
+    char *folder = join(path, n, "."), *found = NULL;
+    bool outside = fence && fence_objection(fence, path);
+    int count = outside ? 0 : scandir(folder, &names, NULL, alphasort);
+    for (int i = 0; i < count; i++)
+        if (same_use(stem_of(names[i]->d_name), nearest.wanted))
+            str_nearest_try(&nearest, stem_of(names[i]->d_name));
+    if (str_nearest_found(&nearest).n)
+        found = join(path, n, nearest.best.at);
+    if (found && !file_readable(fence, found, &reason)) {
+        free(found);
+        found = NULL;
+    }
+    for (int i = 0; i < count; i++)
+        free(names[i]);
+    free(names);
+    free(folder);
+    return found;
+}
+
 const char *file_put(int fd, const void *data, size_t n)
 {
     const char *p = data;

@@ -34,6 +34,10 @@ char *file_other_case(const char *path);
  * long as `path`; caller frees. */
 char *file_meant(const struct file_fence *fence, const char *path, size_t from);
 
+/* The path of a file in the folder of `path` whose name is near to that one's, and that can be read
+ * inside of the fence: for "did you mean".  NULL when there is none.  Caller frees. */
+char *file_nearest(const struct file_fence *fence, const char *path);
+
 /* Writes n bytes so that path holds either its old content or all of the new: a temporary file
  * beside it is renamed.  A path that exists and is no regular file (a device, a pipe), and "-" for
  * standard output, is written directly.  Returns NULL or a reason. */

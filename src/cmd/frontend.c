@@ -7,9 +7,11 @@
 #include "base/thread.h"
 #include "eval/eval.h"
 #include "farm/tilefile.h"
+#include "image/picture.h"
 #include "lint/explain.h"
 #include "lower/lower.h"
 #include "print/printer.h"
+#include "scene/mesh.h"
 #include "syntax/syntax.h"
 #include "validate/validate.h"
 
@@ -89,7 +91,8 @@ static void check_limits(struct frontend *f, const struct options *o)
         f->desc.camera ? desc_get(f->desc.camera, PROP_RESOLUTION) : NULL;
     if (size && !o->width && size->number[0] * size->number[1] > o->max_pixels)
         diag_report(&f->diag, DIAG_SCENE_TOO_LARGE, size->span,
-                    "the picture has more pixels than --max-pixels allows (%u)", o->max_pixels);
+                    "the picture has %.0f pixels, more than --max-pixels allows (%u)",
+                    size->number[0] * size->number[1], o->max_pixels);
     if (size && o->depth == DEPTH_OF_SCENE && lower_depth(&f->desc) > o->max_depth)
         diag_report(&f->diag, DIAG_OUT_OF_RANGE,
                     settings && desc_get(settings, PROP_DEPTH)
@@ -120,17 +123,41 @@ static void evaluate(struct frontend *f, const struct options *o, bool parsed)
     free(defines);
 }
 
+/* What a file is that is no scene, and what can be done with it; NULL: nothing speaks against its
+ * being one. */
+static const char *other_use(const char *path, char *bytes, size_t n)
+{
+    if (tilefile_recognised(bytes, n))
+        return "holds tiles of a picture and no scene; 'wrt merge' makes the picture";
+    if (picture_recognised(bytes, n))
+        return "is a picture and no scene; 'wrt diff' compares pictures";
+    if (mesh_recognised(path, bytes, n))
+        return "is a mesh and no scene; 'mesh { file: \"...\"  material: ... }' in a scene shows "
+               "it";
+    return NULL;
+}
+
 /* The bytes as a scene; takes them. */
 static const struct source *take_bytes(struct frontend *f, const char *path, char *bytes, size_t n)
 {
-    if (!tilefile_recognised(bytes, n))
+    const char *other = other_use(path, bytes, n);
+    if (!other)
         return syntax_take(&f->sources, path, bytes, n, DIAG_CANNOT_READ, (struct span){0},
                            &f->diag);
-    diag_report(&f->diag, DIAG_NOT_TEXT, (struct span){0},
-                "'%s' holds tiles of a picture and no scene; 'wrt merge' makes the picture",
-                display_name(path));
+    diag_report(&f->diag, DIAG_NOT_TEXT, (struct span){0}, "'%s' %s", display_name(path), other);
     free(bytes);
     return NULL;
+}
+
+static void report_unread(struct frontend *f, const char *path, const struct options *o,
+                          const char *reason)
+{
+    struct diag_entry *e = diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0},
+                                       "could not read '%s': %s", display_name(path), reason);
+    char *near = file_nearest(o->fence, path);
+    if (near)
+        diag_note(e, "did you mean '%s'?", near);
+    free(near);
 }
 
 bool frontend_parse(struct frontend *f, const char *path, const struct options *o)
@@ -140,8 +167,7 @@ bool frontend_parse(struct frontend *f, const char *path, const struct options *
     size_t n;
     const char *reason = file_read_within(o->fence, path, &bytes, &n);
     if (reason)
-        diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "could not read '%s': %s",
-                    display_name(path), reason);
+        report_unread(f, path, o, reason);
     const struct source *s = reason ? NULL : take_bytes(f, path, bytes, n);
     return s && syntax_parse(s, &f->ast, &f->diag);
 }

@@ -66,13 +66,14 @@ static int print_help(const struct command *c)
     if (c) {
         printf("usage: wrt %s\n\n%s\n\noptions:\n", c->usage, c->summary);
     } else {
-        puts("usage: wrt [COMMAND] SCENE [options]\n\ncommands:");
+        puts("usage: wrt COMMAND ... [options]\n       wrt SCENE [options]\n\ncommands:");
         for (int i = 0; i < COMMANDS; i++)
             printf("  %-28s %s\n", commands[i].usage, commands[i].summary);
-        puts("\n'wrt SCENE' is short for 'wrt render SCENE'.  Options may stand "
-             "anywhere.\n'wrt help COMMAND' says which options it has.\n\noptions:");
+        puts("\n'wrt SCENE' is short for 'wrt render SCENE'.  Options may stand anywhere.\n"
+             "'wrt help COMMAND' lists all options of a command: 'wrt help render' those of "
+             "pictures.\n\noptions of all commands that read scenes:");
     }
-    options_help(c ? c->bit : FOR_ALL, stdout);
+    options_help(c ? c->bit : FOR_SCENES, stdout);
     puts("\nsee wrt(1)");
     return 0;
 }

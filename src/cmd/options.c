@@ -127,7 +127,7 @@ static void report_unknown(const char *word)
     if (meant.n && word[1] == '-')
         usage_error("unknown option '%s'; did you mean '--%.*s'?", word, STR_ARG(meant));
     else
-        usage_error("unknown option '%s'; 'wrt --help' lists them", word);
+        usage_error("unknown option '%s'; 'wrt help COMMAND' lists those of a command", word);
 }
 
 static bool accept(const struct given *g, const char *word, unsigned command, struct options *out)
@@ -218,11 +218,11 @@ void options_free(struct options *o)
     vec_free(&o->folders);
 }
 
-void options_help(unsigned command, FILE *out)
+void options_help(unsigned commands, FILE *out)
 {
     for (int o = 0; o < OPTS; o++) {
         const struct opt_row *r = &rows[o];
-        if (!(r->commands & command))
+        if ((r->commands & commands) != commands)
             continue;
         char names[64], letter[8] = "    ";
         if (r->letter)

@@ -103,8 +103,8 @@ void options_free(struct options *o);
 /* The first argument that is no option or an option's argument; argc: none. */
 int options_first_operand(int argc, char **argv);
 
-/* The lines of help for a command's options. */
-void options_help(unsigned command, FILE *out);
+/* The lines of help for the options that all of these commands take. */
+void options_help(unsigned commands, FILE *out);
 
 /* The first of the operands that the output is, so that it would be lost; or NULL. */
 const char *options_overwritten(const struct options *o);

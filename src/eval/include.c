@@ -76,12 +76,17 @@ static void explain_missing(const struct eval *e, struct diag_entry *entry,
 {
     size_t n = strlen(path), from = n - (string->text.n < n ? string->text.n : n);
     bool ends = string->text.n > 0 && str_is(string->text, path + from);
-    char *meant = ends ? file_meant(e->options->sources->fence, path, from) : NULL;
-    if (!meant)
-        return;
-    diag_note(entry, "there is '%s'", meant);
-    diag_fix(entry, string->span, DIAG_FIX_MAYBE, "\"%s\"", meant + from);
+    const struct file_fence *fence = e->options->sources->fence;
+    char *meant = ends ? file_meant(fence, path, from) : NULL;
+    char *near = ends && !meant ? file_nearest(fence, path) : NULL;
+    if (meant)
+        diag_note(entry, "there is '%s'", meant);
+    else if (near)
+        diag_note(entry, "did you mean '%s'?", near + from);
+    if (meant || near)
+        diag_fix(entry, string->span, DIAG_FIX_MAYBE, "\"%s\"", (meant ? meant : near) + from);
     free(meant);
+    free(near);
 }
 
 /* The first that can be read: beside the file that spells the name, then in the folders of -I.

@@ -112,7 +112,14 @@ void image_free(struct image *i);
 bool image_equal(const struct image *a, const struct image *b);
 
 enum picture_format { PICTURE_PNG, PICTURE_PPM, PICTURE_PFM, PICTURE_EXR };
+/* Those that this program was built with; how many bits a channel of OpenEXR has. */
+#ifdef HAVE_OPENEXR
 #define PICTURE_SUFFIXES ".png, .ppm, .pfm and .exr"
+#define PICTURE_EXR_BITS ", 32 or 16 in .exr"
+#else
+#define PICTURE_SUFFIXES ".png, .ppm and .pfm"
+#define PICTURE_EXR_BITS ""
+#endif
 
 /* By the suffix of path (any case; none means PNG); false when it names no format. */
 bool picture_format_of(const char *path, enum picture_format *format);

@@ -39,18 +39,23 @@ static void explain_missing(struct lowering *l, struct diag_entry *e, const stru
 {
     bool backslash = memchr(file->string.at, '\\', file->string.n);
     size_t n = strlen(path), from = n - (file->string.n < n ? file->string.n : n);
-    char *meant =
-        str_is(file->string, path + from) ? file_meant(l->sources->fence, path, from) : NULL;
+    bool ends = str_is(file->string, path + from);
+    char *meant = ends ? file_meant(l->sources->fence, path, from) : NULL;
+    char *near = ends && !meant ? file_nearest(l->sources->fence, path) : NULL;
     if (backslash)
         diag_note(e, "'\\' is part of a name; '/' stands between folders");
     if (meant) {
         diag_note(e, backslash ? "there is '%s'" : "there is '%s': the names differ only in case",
                   meant);
         offer(l, e, file, meant + from);
+    } else if (near) {
+        diag_note(e, "did you mean '%s'?", near + from);
+        offer(l, e, file, near + from);
     } else if (*file->string.at == '/') {
         diag_note(e, "an absolute path holds on the machine it was written on");
     }
     free(meant);
+    free(near);
 }
 
 static bool read_file(struct lowering *l, const struct desc_value *file, const char *path,

@@ -47,6 +47,17 @@ static enum format format_by_content(const struct source *source, const char *be
     return obj_is_statement(word) ? FORMAT_OBJ : FORMATS;
 }
 
+bool mesh_recognised(const char *name, char *bytes, size_t n)
+{
+    struct source source = {.text = bytes, .n = (uint32_t)n};
+    struct scan in = scan_of(&source, NULL);
+    const char *begin = in.at;
+    in.comment = '#';
+    scan_skip_space(&in);
+    return format_by_suffix(name) != FORMATS &&
+           format_by_content(&source, begin, scan_word(&in)) != FORMATS;
+}
+
 static struct mesh *refuse(const struct scan *in, struct span span, const char *what)
 {
     struct diag_entry *e = diag_report(in->diag, DIAG_MESH_FORMAT, span, "%s", what);

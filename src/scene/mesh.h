@@ -43,6 +43,9 @@ void mesh_free(struct mesh *m);
  * none. */
 struct mesh *mesh_parse(const struct source *source, struct diag *diag);
 
+/* Whether both the name and the bytes of a file are those of a mesh. */
+bool mesh_recognised(const char *name, char *bytes, size_t n);
+
 /* ---- the formats, for mesh_parse ---- */
 
 /* OFF, text or binary (`OFF BINARY`, Geomview's layout and OpenMesh's); the rest of the family

@@ -135,7 +135,9 @@ static void check_camera(const struct desc_object *o, struct diag *diag)
     struct vec3 size = desc_vector(o, PROP_RESOLUTION);
     if (!image_size_allowed((uint64_t)size.x, (uint64_t)size.y))
         diag_report(diag, DIAG_OUT_OF_RANGE, value_span(o, PROP_RESOLUTION),
-                    "a picture has at most %d pixels in all", IMAGE_PIXEL_LIMIT);
+                    "the picture has %.0f pixels, and %d is the most there can be, whatever "
+                    "--max-pixels allows",
+                    size.x * size.y, IMAGE_PIXEL_LIMIT);
     if (o->model == SCHEMA_CLASSIC) {
         check_classic_camera(o, diag);
     } else {
