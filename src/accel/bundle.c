@@ -24,22 +24,10 @@ bool bundle_needs_no_lists(const struct accel *a)
     return a->wide && a->wide->block_count >= MANY_BLOCKS;
 }
 
-/* Fewer rays are traced one after another. */
-enum { PACKET_LEAST = 4 };
-
-/* Among many small primitives of other kinds than triangles rays have little in common. */
-static bool has_packets(const struct accel *a)
-{
-    enum { FEW_OTHERS = 64, TRIANGLES_FOR_EACH = 8 };
-    size_t triangles = a->geometry->triangles.n, others = a->geometry->prims.n - triangles;
-    return a->wide && (others <= FEW_OTHERS || others <= triangles / TRIANGLES_FOR_EACH);
-}
-
 static bool as_packet(const struct accel *a, const struct ray_batch *rays, bool any,
                       struct hit_batch *hits)
 {
-    return has_packets(a) && rays->n >= PACKET_LEAST &&
-           a->wide->kernels->packet(a, rays, any, hits);
+    return wide_takes_packets(a, rays->n) && a->wide->kernels->packet(a, rays, any, hits);
 }
 
 void bundle_closest(const struct accel *a, const struct bundle_kernels *kernels,

@@ -215,8 +215,8 @@ static inline void find_aspect_of_box(const struct packet *p, const struct range
     }
 }
 
-/* The parts of the rays that may touch the box. */
-static unsigned parts_near(struct packet *p, const struct box *box)
+/* The parts of the rays that may touch the box, which is seen like that where there is an apex. */
+static unsigned parts_near(struct packet *p, const struct box *box, struct aspects *seen)
 {
     struct range b[3];
     unsigned near = 0;
@@ -227,28 +227,125 @@ static unsigned parts_near(struct packet *p, const struct box *box)
     if (!p->parted)
         make_all_parts(p);
     if (p->has_apex) {
-        struct aspects seen;
-        find_aspect_of_box(p, b, &seen);
-        return overlapped_parts(p, &seen, 0) & parts_of_rays(p->frames);
+        find_aspect_of_box(p, b, seen);
+        return overlapped_parts(p, seen, 0) & parts_of_rays(p->frames);
     }
     for (unsigned j = 0; PART * j < p->frames->n; j++)
         near |= (unsigned)box_touched(&p->part[j], b, p->down) << j;
     return near;
 }
 
-static void meet_instance(struct packet *p, uint32_t k)
+/* ---- instances ------------------------------------------------------------------------------- */
+
+/* Rays that meet more leaves of an instance's shapes are faster one after another. */
+#define LEAVES_SHARED 100
+
+/* Rays as an instance's shapes see them, and what they hit there. */
+struct inner_batch {
+    struct ray_batch rays;
+    struct hit_batch hits;
+    alignas(64) double reach[BATCH_ROOM];
+};
+
+static void trace_inner(const struct accel *a, struct inner_batch *inner, bool any, bool together);
+
+static void frames_inside(struct frame_batch *f, const struct geometry *g,
+                          struct inner_batch *inner)
 {
-    struct frame_batch *f = p->frames;
-    for (uint32_t i = 0; i < f->rays->n; i++) {
-        struct ray ray = ray_get(f->rays, i);
-        struct ray_frame frame = ray_frame_of(&ray);
-        struct hit hit = hit_get(f->hits, i);
-        accel_try_run(p->accel, k, 1, &ray, &frame, p->any, &hit);
-        hit_put(f->hits, i, &hit);
-    }
+    frames_init(f, g, &inner->rays, true, true, &inner->hits);
+    memcpy(f->reach, inner->reach, f->n * sizeof *f->reach);
 }
 
-/* Returns the parts that met something; instances take rays one by one. */
+/* See affine_vector. */
+static inline struct vvec3 v3_mapped(const struct affine *a, struct vvec3 v)
+{
+    const double(*m)[4] = a->m;
+    return (struct vvec3){m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+                          m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+                          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
+/* instance_ray for the rays of the parts, which move together. */
+static void enter_instance(const struct frame_batch *f, const struct instance *i, unsigned parts,
+                           struct inner_batch *inner)
+{
+    const struct ray_batch *rays = f->rays;
+    struct vvec3 offset =
+        v3_all(vec3(i->to_shape.m[0][3], i->to_shape.m[1][3], i->to_shape.m[2][3]));
+    uint32_t to = 0;
+    inner->rays.n = 0;
+    for (uint32_t from = next_lanes(f, &parts, 0); from < f->n;
+         from = next_lanes(f, &parts, from + LANES), to += LANES) {
+        struct vvec3 origin = v3_load(&rays->origin, from);
+        v3_store(&inner->rays.origin, to, v3_add(v3_mapped(&i->to_shape, origin), offset));
+        v3_store(&inner->rays.direction, to,
+                 v3_mapped(&i->to_shape, v3_load(&rays->direction, from)));
+        v_store(inner->rays.t_max + to, v_load(f->hits->t + from));
+        v_store(inner->rays.from + to, v_all(PRIM_NONE));
+        v_store(inner->reach + to,
+                rays->spawned ? i->growth * v3_largest(origin) + i->reach : v_all(0));
+        inner->rays.n += rays->n - from < LANES ? rays->n - from : LANES;
+    }
+    inner->rays.common_origin = rays->common_origin;
+    inner->rays.common_from = true;
+    inner->rays.spawned = rays->spawned;
+}
+
+/* instance_offer for those rays; returns the parts that met something. */
+static unsigned leave_instance(struct frame_batch *f, const struct instance *i, uint32_t prim,
+                               unsigned parts, const struct inner_batch *inner)
+{
+    const double *part = i->only == PRIM_NONE ? inner->hits.prim : inner->hits.part;
+    unsigned met = 0;
+    uint32_t from = 0;
+    for (uint32_t to = next_lanes(f, &parts, 0); to < f->n;
+         to = next_lanes(f, &parts, to + LANES), from += LANES) {
+        vmask none = v_equal(v_load(inner->hits.prim + from), v_all(PRIM_NONE));
+        vreal t = v_select(none, v_all(0), v_load(inner->hits.t + from));
+        if (offer(f, to, t, prim, v_load(part + from)))
+            met |= 1u << to / PART;
+    }
+    return met;
+}
+
+static void trace_only(const struct geometry *g, uint32_t prim, struct inner_batch *inner)
+{
+    struct frame_batch frames;
+    frames_inside(&frames, g, inner);
+    meet(&frames, target_of(g, prim), parts_of_rays(&frames));
+}
+
+/* Whether the rays are to share their way through the instance: the leaves that the part of its box
+ * behind all of them may hold are few. */
+static bool shares_leaves(const struct packet *p, const struct accel *a, const struct aspects *box)
+{
+    double part = 1;
+    if (!p->has_apex || !a->wide || box->way[0] <= near_apex(p))
+        return true;
+    for (int side = 0; side < 2; side++) {
+        double least = fmax(box->least[side][0], p->outline.least[side]);
+        double most = fmin(box->most[side][0], p->outline.most[side]);
+        part *= (most - least) / (box->most[side][0] - box->least[side][0]);
+    }
+    return part * a->wide->block_count <= LEAVES_SHARED;
+}
+
+static unsigned meet_instance(struct packet *p, struct target target, unsigned parts,
+                              const struct aspects *box)
+{
+    const struct geometry *g = p->accel->geometry;
+    const struct instance *i = &g->instances.at[target.index];
+    const struct accel *shapes = &p->accel->prototypes[i->prototype];
+    struct inner_batch inner;
+    enter_instance(p->frames, i, parts, &inner);
+    if (i->only == PRIM_NONE)
+        trace_inner(shapes, &inner, p->any, shares_leaves(p, shapes, box));
+    else
+        trace_only(&g->prototypes.at[i->prototype]->shapes, i->only, &inner);
+    return leave_instance(p->frames, i, target.prim, parts, &inner);
+}
+
+/* Returns the parts that met something. */
 static unsigned meet_run(struct packet *p, struct wide_child run)
 {
     const struct geometry *g = p->accel->geometry;
@@ -256,13 +353,11 @@ static unsigned meet_run(struct packet *p, struct wide_child run)
     for (uint32_t k = run.first; k < run.first + run.count; k++) {
         struct target target = p->accel->targets[k];
         struct box box = target_bounds(g, target);
-        unsigned parts = parts_near(p, &box);
-        if (parts && target.kind != PRIM_INSTANCE) {
-            met |= meet(p->frames, target, parts);
-        } else if (parts) {
-            meet_instance(p, k);
-            met = parts_of_rays(p->frames);
-        }
+        struct aspects seen;
+        unsigned parts = parts_near(p, &box, &seen);
+        if (parts)
+            met |= target.kind == PRIM_INSTANCE ? meet_instance(p, target, parts, &seen)
+                                                : meet(p->frames, target, parts);
     }
     return met;
 }
@@ -309,17 +404,50 @@ static bool walk_packet(struct packet *p)
     return true;
 }
 
+static bool trace_packet(const struct accel *a, struct frame_batch *frames, bool any)
+{
+    struct packet p;
+    p.accel = a;
+    p.frames = frames;
+    p.any = any;
+    return packet_init(&p) && walk_packet(&p);
+}
+
 static bool packet_in_wide(const struct accel *a, const struct ray_batch *rays, bool any,
                            struct hit_batch *hits)
 {
     const struct geometry *g = a->geometry;
     struct frame_batch frames;
-    struct packet p;
-    p.accel = a;
-    p.frames = &frames;
-    p.any = any;
     frames_init(&frames, g, rays, g->spheres.n > 0, true, hits);
-    return packet_init(&p) && walk_packet(&p);
+    return trace_packet(a, &frames, any);
+}
+
+/* One after another. */
+static void trace_inner_rays(const struct accel *a, struct inner_batch *inner, bool any)
+{
+    for (uint32_t i = 0; i < inner->rays.n; i++) {
+        struct ray ray = ray_get(&inner->rays, i);
+        struct ray_frame frame = ray_frame_of(&ray);
+        struct hit hit = hit_none(ray.t_max);
+        frame.reach = inner->reach[i];
+        if (any)
+            any_in_wide(a, &ray, &frame, &hit);
+        else
+            closest_in_wide(a, &ray, &frame, &hit);
+        hit_put(&inner->hits, i, &hit);
+    }
+}
+
+/* What find of traverse.c finds for each of them. */
+static void trace_inner(const struct accel *a, struct inner_batch *inner, bool any, bool together)
+{
+    struct frame_batch frames;
+    frames_inside(&frames, a->geometry, inner);
+    for (uint32_t k = 0; !a->wide && k < a->target_count; k++)
+        meet(&frames, a->targets[k], parts_of_rays(&frames));
+    together &= wide_takes_packets(a, inner->rays.n);
+    if (a->wide && !(together && trace_packet(a, &frames, any)))
+        trace_inner_rays(a, inner, any);
 }
 
 const struct wide_kernels WIDE_KERNELS = {closest_in_wide, any_in_wide, packet_in_wide};

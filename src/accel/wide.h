@@ -74,6 +74,17 @@ void wide_free(struct wide *w);
 bool accel_try_run(const struct accel *a, uint32_t first, uint32_t count, const struct ray *ray,
                    const struct ray_frame *frame, bool any_hit, struct hit *hit);
 
+/* Whether so many rays may be better off together: among many small primitives of other kinds than
+ * triangles they have little in common. */
+static inline bool wide_takes_packets(const struct accel *a, uint32_t rays)
+{
+    enum { PACKET_LEAST = 4, FEW_OTHERS = 64, TRIANGLES_FOR_EACH = 8 };
+    const struct geometry *g = a->geometry;
+    size_t triangles = g->triangles.n, others = g->prims.n - triangles - g->instances.n;
+    return a->wide && rays >= PACKET_LEAST &&
+           (others <= FEW_OTHERS || others <= triangles / TRIANGLES_FOR_EACH);
+}
+
 static inline bool accel_skips(const struct accel *a, struct target target, const struct ray *ray)
 {
     return ray->surface != SURFACE_NONE &&
