@@ -218,6 +218,101 @@ static void report_missing_unit(struct eval *e, enum schema_prop_id id,
     add_units(entry, node, v);
 }
 
+/* ---- degrees that look like radians ---- */
+
+/* Whether four digits or more begin or round an angle of a usual part of a turn. */
+static bool spells_radians(struct str digits, double x)
+{
+    static const double usual[] = {30, 45, 60, 90, 120, 135, 180, 270, 360};
+    enum { FEWEST = 4 };
+    unsigned significant = 0, decimals = 0;
+    bool fraction = false;
+    for (size_t i = 0; i < digits.n; i++) {
+        bool digit = digits.at[i] >= '0' && digits.at[i] <= '9';
+        if (!digit && digits.at[i] != '.')
+            return false;
+        significant += digit && (significant || digits.at[i] != '0');
+        decimals += digit && fraction;
+        fraction |= !digit;
+    }
+    double last = fmax(pow(10, -(double)decimals), 1e-12);
+    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
+        if (significant >= FEWEST && fabs(x - usual[i] * PI / 180) < last)
+            return true;
+    return false;
+}
+
+/* A multiple of 15 degrees up to two turns, but for rounding. */
+static bool is_part_of_turn(double x)
+{
+    double parts = fabs(x) * 12 / PI;
+    return parts < 48.5 && fabs(parts - round(parts)) < 1e-9 * parts;
+}
+
+/* Whether pi is a factor or term of the value; who divides by it makes degrees. */
+static bool mentions_pi(const struct eval *e, const struct ast_node *node)
+{
+    const struct binding *b = node->kind == AST_NAME ? scope_find(e, node->name) : NULL;
+    bool looks = node->kind == AST_CHAIN || node->kind == AST_PREFIX ||
+                 node->kind == AST_PARENTHESES || node->kind == AST_VECTOR;
+    if (b && str_is(node->name, "pi"))
+        return b->kind == BINDING_VALUE && b->value.number[0] == PI;
+    for (const struct ast_node *c = looks ? node->children : NULL; c; c = c->next)
+        if (c->operator!= AST_DIVIDE && mentions_pi(e, c))
+            return true;
+    return false;
+}
+
+/* Tells one number, that of a field of view by W538; false when it looks right. */
+static bool report_radians(struct eval *e, enum schema_prop_id id, const struct ast_node *node,
+                           double x)
+{
+    bool plain = is_plain_number(node);
+    const struct ast_node *bare = node->kind == AST_PREFIX ? node->children : node;
+    struct str text = srcmap_text(e->diag->sources, node->span);
+    struct str digits = srcmap_text(e->diag->sources, bare->span);
+    if (plain ? id == PROP_FOV || !spells_radians(digits, fabs(x))
+              : !is_part_of_turn(x) && !mentions_pi(e, node))
+        return false;
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_ANGLE_IN_RADIANS, node->span,
+                    "'%s' takes degrees, and %.6g looks like radians", schema_props[id].native, x);
+    diag_note(entry, "%.6g radians are %.6g degrees", x, x * (180 / PI));
+    if (plain)
+        diag_fix(entry, node->span, DIAG_FIX_MAYBE, "%.0fdeg", x * (180 / PI));
+    else
+        diag_fix(entry, node->span, DIAG_FIX_MAYBE,
+                 node->kind == AST_NAME ? "%.*s * 1rad" : "(%.*s) * 1rad", STR_ARG(text));
+    return true;
+}
+
+/* Each number of a vector that is spelt out, or all of it. */
+static bool report_each_radians(struct eval *e, enum schema_prop_id id,
+                                const struct ast_node *property, const struct value *v)
+{
+    bool found = false;
+    if (!diag_wants(e->diag, DIAG_ANGLE_IN_RADIANS))
+        return false;
+    const struct ast_node *node = ast_value(property, e->scratch);
+    const struct ast_node *c = node->kind == AST_VECTOR ? node->children : node;
+    for (uint32_t i = 0; i < v->n && c; i++) {
+        if (v->number[i] != 0 && !value_is_angle(v, i))
+            found |= report_radians(e, id, c, v->number[i]);
+        if (node->kind == AST_VECTOR)
+            c = c->next;
+        else if (found)
+            break;
+    }
+    return found;
+}
+
+static void report_angle(struct eval *e, enum schema_prop_id id, const struct ast_node *property,
+                         const struct value *v)
+{
+    if (!report_each_radians(e, id, property, v))
+        report_missing_unit(e, id, property, v);
+}
+
 static void report_scalar_position(struct eval *e, enum schema_prop_id id,
                                    const struct ast_node *property, const struct value *v)
 {
@@ -240,7 +335,7 @@ void report_style(struct eval *e, enum schema_prop_id id, const struct ast_node 
     if (!value_is_numeric(v))
         return;
     if (type == TYPE_ANGLE || type == TYPE_ROTATION)
-        report_missing_unit(e, id, property, v);
+        report_angle(e, id, property, v);
     else if (type == TYPE_VECTOR)
         report_scalar_position(e, id, property, v);
 }
