@@ -6,7 +6,7 @@
 #include "base/num.h"
 
 /* The frames that are told of a deep stack: its innermost and its outermost. */
-enum { INNERMOST = 8, OUTERMOST = 4 };
+enum { INNERMOST = 3, OUTERMOST = 2 };
 
 static const char *words_of(struct diag *d, const struct diag_frame *f)
 {
