@@ -140,7 +140,7 @@ static struct span label_span(struct eval *e, const struct ast_node *node)
     return (struct span){begin, begin + (uint32_t)node->label.n};
 }
 
-/* The kind that `light point` names; SCHEMA_KINDS after reporting. */
+/* The kind that `light point` names, or was meant to; SCHEMA_KINDS after reporting. */
 static enum schema_kind light_kind(struct eval *e, const struct ast_node *node)
 {
     if (!node->label.n) {
@@ -151,18 +151,16 @@ static enum schema_kind light_kind(struct eval *e, const struct ast_node *node)
     }
     enum schema_kind kind = schema_find_kind(SCHEMA_LIGHT, node->label, false);
     if (kind == SCHEMA_KINDS)
-        report_unknown_kind(e, SCHEMA_LIGHT, node->label, label_span(e, node), false);
+        kind = report_unknown_kind(e, SCHEMA_LIGHT, node->label, label_span(e, node), false);
     else if (!kind_exists(e, kind, label_span(e, node), false))
         kind = SCHEMA_KINDS;
     return kind;
 }
 
-/* The kinds that make statements. */
-static void add_standing_kinds(const struct eval *e, struct diag_entry *entry,
-                               const struct ast_node *node)
+/* Lists the kinds that make statements, and returns the one that was meant by the name, if any. */
+static struct str standing_kinds(const struct eval *e, struct str name, struct buffer *list)
 {
-    struct str_nearest nearest = str_nearest_to(node->name);
-    struct buffer list = {0};
+    struct str_nearest nearest = str_nearest_to(name);
     bool light = false;
     for (int k = 0; k < SCHEMA_KINDS; k++) {
         const struct schema_kind_row *row = &schema_kinds[k];
@@ -173,30 +171,34 @@ static void add_standing_kinds(const struct eval *e, struct diag_entry *entry,
         light |= row->group == SCHEMA_LIGHT;
         struct str word = str_nth_word(row->native, 0);
         str_nearest_try(&nearest, word);
-        buffer_printf(&list, " %.*s", STR_ARG(word));
+        buffer_printf(list, " %.*s", STR_ARG(word));
     }
-    diag_did_you_mean(entry, node->name_span, str_nearest_found(&nearest));
-    diag_note(entry, "there are:%.*s", (int)list.n, list.at);
-    buffer_free(&list);
+    return str_nearest_found(&nearest);
 }
 
-static void report_unknown_statement(struct eval *e, const struct ast_node *node)
+/* Whether the name is only misspelt. */
+static bool report_unknown_statement(struct eval *e, const struct ast_node *node, struct str meant,
+                                     const struct buffer *kinds)
 {
     const struct binding *b = scope_find(e, node->name);
-    e->out->incomplete = true;
+    bool template = b && b->kind == BINDING_TEMPLATE;
+    bool material = schema_find_kind(SCHEMA_MATERIAL, node->name, false) != SCHEMA_KINDS;
+    bool misspelt = !template && !material && meant.n && !e->damaged.n;
     if (scope_told(e, node->name, node->name_span))
-        return;
+        return misspelt;
     struct diag_entry *entry = diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
                                            "unknown kind '%.*s'", STR_ARG(node->name));
-    if (b && b->kind == BINDING_TEMPLATE) {
+    if (template) {
         diag_note(entry, "a template is used with parentheses: '%.*s(...)'", STR_ARG(node->name));
-    } else if (schema_find_kind(SCHEMA_MATERIAL, node->name, false) != SCHEMA_KINDS) {
+    } else if (material) {
         struct str label = node->label.n ? node->label : str_of("NAME");
         diag_note(entry, "a material gets a name by 'material %.*s = %.*s { ... }'", STR_ARG(label),
                   STR_ARG(node->name));
     } else {
-        add_standing_kinds(e, entry, node);
+        diag_did_you_mean(entry, node->name_span, meant);
+        diag_note(entry, "there are:%.*s", (int)kinds->n, kinds->at);
     }
+    return misspelt;
 }
 
 /* ---- groups ---- */
@@ -354,23 +356,39 @@ void eval_places(struct eval *e)
     }
 }
 
-void eval_object(struct eval *e, const struct ast_node *node)
+/* The statement as one of this kind; false when there is none. */
+static bool eval_kind(struct eval *e, const struct ast_node *node, struct str name)
 {
-    enum schema_kind kind = schema_find_kind(SCHEMA_SURFACE, node->name, false);
+    enum schema_kind kind = schema_find_kind(SCHEMA_SURFACE, name, false);
     if (kind != SCHEMA_KINDS)
         add_surface(e, kind, node);
-    else if (str_is(node->name, "light")) {
+    else if (str_is(name, "light")) {
         kind = light_kind(e, node);
         if (kind != SCHEMA_KINDS)
             object_place(e, eval_block(e, kind, node));
-    } else if (str_is(node->name, "group"))
+    } else if (str_is(name, "group"))
         eval_group(e, node);
-    else if (str_is(node->name, "camera"))
+    else if (str_is(name, "camera"))
         set_only(e, KIND_CAMERA, node, &e->out->camera);
-    else if (str_is(node->name, "settings"))
+    else if (str_is(name, "settings"))
         set_only(e, KIND_SETTINGS, node, &e->out->settings);
     else
-        report_unknown_statement(e, node);
+        return false;
+    return true;
+}
+
+/* What is in a block of a misspelt kind is looked at as well, unless it may be what is left of text
+ * that did not parse. */
+void eval_object(struct eval *e, const struct ast_node *node)
+{
+    if (eval_kind(e, node, node->name))
+        return;
+    struct buffer kinds = {0};
+    struct str meant = standing_kinds(e, node->name, &kinds);
+    bool misspelt = report_unknown_statement(e, node, meant, &kinds);
+    buffer_free(&kinds);
+    if (!misspelt || !eval_kind(e, node, meant))
+        e->out->incomplete = true;
 }
 
 /* ---- uses ---- */

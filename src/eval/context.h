@@ -231,9 +231,9 @@ void report_property_of_other_model(struct eval *e, const struct desc_object *o,
 /* True when the scene's model has the kind; false after reporting. */
 bool kind_exists(struct eval *e, enum schema_kind kind, struct span span, bool xml);
 
-/* Reports a name of no kind of this group. */
-void report_unknown_kind(struct eval *e, enum schema_group group, struct str name, struct span span,
-                         bool xml);
+/* Reports a name of no kind of this group; returns the kind that was meant, or SCHEMA_KINDS. */
+enum schema_kind report_unknown_kind(struct eval *e, enum schema_group group, struct str name,
+                                     struct span span, bool xml);
 
 /* Reports a word that the property does not take. */
 void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word, struct span span,
@@ -243,8 +243,8 @@ void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word
  * (SCHEMA_PROPS). */
 void report_undefined(struct eval *e, enum schema_prop_id id, const struct ast_node *node);
 /* Shows where the node's name, which has no meaning here, gets one; otherwise offers what was
- * probably meant. */
-void report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
+ * probably meant, and returns true. */
+bool report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
                   struct str meant);
 
 /* Values that are right and yet look like a mistake; nothing unless findings of this rule are

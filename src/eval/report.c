@@ -76,13 +76,14 @@ bool kind_exists(struct eval *e, enum schema_kind kind, struct span span, bool x
     return false;
 }
 
-void report_unknown_kind(struct eval *e, enum schema_group group, struct str name, struct span span,
-                         bool xml)
+enum schema_kind report_unknown_kind(struct eval *e, enum schema_group group, struct str name,
+                                     struct span span, bool xml)
 {
+    struct str meant = schema_nearest_kind(group, e->out->model, name, xml);
     struct diag_entry *entry =
         diag_report(e->diag, DIAG_UNKNOWN_KIND, span, "unknown %s %s '%.*s'",
                     schema_group_name(group), xml ? "class" : "kind", STR_ARG(name));
-    diag_did_you_mean(entry, span, schema_nearest_kind(group, e->out->model, name, xml));
+    diag_did_you_mean(entry, span, meant);
     char list[256];
     size_t at = 0;
     for (int k = 0; k < SCHEMA_KINDS && at < sizeof list; k++) {
@@ -93,6 +94,7 @@ void report_unknown_kind(struct eval *e, enum schema_group group, struct str nam
         at += put > 0 ? (size_t)put : 0;
     }
     diag_note(entry, "there are:%s", list);
+    return schema_find_kind(group, meant, xml);
 }
 
 void report_unknown_word(struct eval *e, enum schema_prop_id id, struct str word, struct span span,
@@ -131,7 +133,7 @@ static const struct ast_node *find_later(struct eval *e, struct str name, struct
     return NULL;
 }
 
-void report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
+bool report_meant(struct eval *e, struct diag_entry *entry, const struct ast_node *node,
                   struct str meant)
 {
     const struct ast_node *later = find_later(e, node->name, node->name_span);
@@ -140,6 +142,7 @@ void report_meant(struct eval *e, struct diag_entry *entry, const struct ast_nod
                    "defined later, here; names are defined before they are used");
     else
         diag_did_you_mean(entry, node->name_span, meant);
+    return !later;
 }
 
 /* Words for colours that scenes elsewhere take, and which have no meaning here. */

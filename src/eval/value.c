@@ -183,7 +183,8 @@ static enum schema_kind constructible_kind(struct str name)
     return SCHEMA_KINDS;
 }
 
-static void report_not_constructible(struct eval *e, const struct ast_node *node)
+/* Returns the kind that was meant, or SCHEMA_KINDS. */
+static enum schema_kind report_not_constructible(struct eval *e, const struct ast_node *node)
 {
     struct diag_entry *entry =
         diag_report(e->diag, DIAG_UNKNOWN_KIND, node->name_span,
@@ -193,9 +194,11 @@ static void report_not_constructible(struct eval *e, const struct ast_node *node
         if (constructible_kind(str_of(schema_kinds[k].native)) != SCHEMA_KINDS)
             str_nearest_try(&nearest, str_of(schema_kinds[k].native));
     scope_try_names(e, &nearest, 1u << BINDING_VALUE);
-    report_meant(e, entry, node, str_nearest_found(&nearest));
+    struct str meant = str_nearest_found(&nearest);
+    bool told = report_meant(e, entry, node, meant);
     diag_note(entry,
               "the materials are: lambert phong shiny metal glass emissive; a texture is 'image'");
+    return told ? constructible_kind(meant) : SCHEMA_KINDS;
 }
 
 /* `phong { ... }` makes an object; `gold { ... }` one like gold, with changes. */
@@ -207,11 +210,10 @@ static struct value eval_construct(struct eval *e, const struct ast_node *node)
     enum schema_kind kind = base ? base->kind : b ? SCHEMA_KINDS : constructible_kind(node->name);
     if (named && named->type == VALUE_ERROR)
         return value_error(node->span);
-    if (kind == SCHEMA_KINDS) {
-        if (b || !scope_lost(e, node->name, node->name_span))
-            report_not_constructible(e, node);
+    if (kind == SCHEMA_KINDS && (b || !scope_lost(e, node->name, node->name_span)))
+        kind = report_not_constructible(e, node);
+    if (kind == SCHEMA_KINDS)
         return value_error(node->span);
-    }
     struct desc_object *o = eval_block(e, kind, node);
     if (base)
         object_inherit(e, o, base);

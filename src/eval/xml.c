@@ -93,7 +93,7 @@ static enum schema_kind take_kind(struct eval *e, const struct ast_node *node,
     struct str name = attribute_text(a->class);
     enum schema_kind kind = schema_find_kind(group, name, true);
     if (kind == SCHEMA_KINDS)
-        report_unknown_kind(e, group, name, attribute_span(a->class), true);
+        kind = report_unknown_kind(e, group, name, attribute_span(a->class), true);
     else if (!kind_exists(e, kind, attribute_span(a->class), true))
         kind = SCHEMA_KINDS;
     return kind;
