@@ -15,6 +15,7 @@
 #include "syntax/syntax.h"
 #include "validate/validate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -83,6 +84,27 @@ static bool may_evaluate(const struct frontend *f, bool parsed)
     return parsed || (!f->ast.xml && f->ast.statements);
 }
 
+/* The rays that a pixel takes at least: one for each sample, and from there to each light's points;
+ * *place is of what makes most of them. */
+static double rays_a_pixel(const struct desc *d, const struct options *o, struct span *place)
+{
+    const struct desc_value *samples = d->settings ? desc_get(d->settings, PROP_SAMPLES) : NULL;
+    bool asked = o->grid || o->adaptive > 0 || !samples;
+    double side = o->grid ? o->grid : asked ? 1 : samples->number[0];
+    double most = asked ? 1 : side, points = 0;
+    *place = asked ? (struct span){0} : samples->span;
+    for (size_t i = 0; i < d->lights.n; i++) {
+        const struct desc_value *v = desc_get(d->lights.at[i], PROP_LIGHT_SAMPLES);
+        double across = v ? fmax(v->number[0], 1) : 1;
+        points += across * across;
+        if (across > most) {
+            most = across;
+            *place = v->span;
+        }
+    }
+    return side * side * (1 + points);
+}
+
 /* What a service may not want to spend on a scene; what the user asks for is known beforehand. */
 static void check_limits(struct frontend *f, const struct options *o)
 {
@@ -99,6 +121,13 @@ static void check_limits(struct frontend *f, const struct options *o)
                         ? desc_get(settings, PROP_DEPTH)->span
                         : (struct span){0},
                     "rays are followed deeper than --max-depth allows (%u)", o->max_depth);
+    struct span place;
+    double rays = rays_a_pixel(&f->desc, o, &place);
+    if (rays > (double)o->max_rays)
+        diag_report(&f->diag, DIAG_SCENE_TOO_LARGE, place,
+                    "samples and lights take %.4g rays for each pixel, more than --max-rays allows "
+                    "(%llu)",
+                    rays, (unsigned long long)o->max_rays);
 }
 
 /* After syntax errors nothing is said to be missing: it may stand where the text did not parse. */

@@ -174,6 +174,11 @@ bool take_max_objects(const struct opt_row *row, const char *text, struct option
     return right;
 }
 
+bool take_max_rays(const struct opt_row *row, const char *text, struct options *out)
+{
+    return take_between(row, text, 1, UINT64_MAX, &out->max_rays);
+}
+
 /* A number of bytes, with K, M or G for powers of 1024. */
 bool take_max_memory(const struct opt_row *row, const char *text, struct options *out)
 {

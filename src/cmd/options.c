@@ -169,13 +169,18 @@ static bool meant_as_argument(const struct given *g, const char *next)
     return true;
 }
 
+/* More takes minutes for a single pixel. */
+enum { USUAL_RAYS = 1000 * 1000 * 1000 };
+
 enum options_result options_read(int argc, char **argv, unsigned command, struct options *out)
 {
     *out = (struct options){.depth = DEPTH_OF_SCENE,
                             .isa = isa_best(),
                             .max_objects = 10 * 1000 * 1000,
                             .max_pixels = IMAGE_PIXEL_LIMIT,
-                            .max_depth = UINT32_MAX};
+                            .max_depth = UINT32_MAX,
+                            .max_rays =
+                                rows[OPT_MAX_RAYS].commands & command ? USUAL_RAYS : UINT64_MAX};
     for (int i = 0; i < MEASURES; i++)
         out->limits[i] = NAN;
     bool options_end = false;
