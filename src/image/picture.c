@@ -154,7 +154,7 @@ struct image *image_new(uint32_t width, uint32_t height, int depth)
     if (depth == 16)
         i->data16 = mem_alloc(sample_count(width, height), sizeof *i->data16);
     else
-        i->data8 = mem_alloc(sample_count(width, height) + 1, sizeof *i->data8);
+        i->data8 = mem_alloc(sample_count(width, height) + 5, sizeof *i->data8);
     return i;
 }
 

@@ -83,21 +83,21 @@ static inline void picture_set_row(struct picture *p, uint32_t x, uint32_t y, co
  * channels, palettes looked up, alpha dropped, gamma and profiles ignored. */
 struct image {
     uint32_t width, height;
-    uint8_t *data8;   /* 3 width height, then room for image_texel8 to read on; or NULL */
+    uint8_t *data8;   /* 3 width height, then room for image_texels8 to read on; or NULL */
     uint16_t *data16; /* 3 width height, or NULL */
     bool jpeg;        /* what the file was; PNG otherwise */
 };
 
-/* Texel number `at` of 8 bits a channel in one load: red in the low byte, then green and blue;
- * the high byte is anything. */
-static inline int32_t image_texel8(const struct image *image, size_t at)
+/* Texel number `at` of 8 bits a channel and the next one in one load, 24 bits each: red in the low
+ * byte, then green and blue; the high bytes are anything. */
+static inline int64_t image_texels8(const struct image *image, size_t at)
 {
-    uint32_t texel;
-    memcpy(&texel, image->data8 + 3 * at, sizeof texel);
+    uint64_t texels;
+    memcpy(&texels, image->data8 + 3 * at, sizeof texels);
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    texel = __builtin_bswap32(texel);
+    texels = __builtin_bswap64(texels);
 #endif
-    return (int32_t)texel;
+    return (int64_t)texels;
 }
 
 /* Room for the reason of a failure: lower case, no full stop, NUL-terminated. */

@@ -78,14 +78,20 @@ static inline vreal v_real(vint32 a)
     return __builtin_convertvector(a, vreal);
 }
 
-static inline vint v_long(vint32 a)
-{
-    return __builtin_convertvector(a, vint);
-}
-
 static inline vreal v_all(double a)
 {
     return a - (vreal){0};
+}
+
+/* Of whole numbers from 0 to 2^51. */
+static inline vreal v_real_of_long(vint a)
+{
+    return (vreal)(a | (vint)v_all(0x1p52)) - 0x1p52;
+}
+
+static inline vint v_long(vint32 a)
+{
+    return __builtin_convertvector(a, vint);
 }
 
 static inline vreal v_abs(vreal a)

@@ -98,42 +98,64 @@ static inline struct texel_places places_on(const struct texture *texture, vreal
     return (struct texel_places){v_select(end, v_all(size - 1), at), v_select(end, one, rest)};
 }
 
-/* The four texels around each place. */
+/* The four texels around each place: two in its row, two in the one above. */
 struct texel_corners {
-    alignas(64) int32_t at[4][BATCH_ROOM];                      /* numbers in the image */
+    alignas(64) int32_t at[2][BATCH_ROOM]; /* the left one's number */
+    uint64_t wraps;                        /* a bit: the right one is column 0 */
     alignas(64) double across[BATCH_ROOM], upwards[BATCH_ROOM]; /* the place between them */
-    alignas(64) int32_t texel8[4][BATCH_ROOM];                  /* red in the low byte */
-    struct vec3_batch texel16[4];                               /* decoded, if they are to be */
+    alignas(64) int64_t pair8[2][BATCH_ROOM];                   /* see image_texels8 */
+    struct vec3_batch texel16[2][2];                            /* decoded, if they are to be */
 };
 
-static void load_texels(const struct texture *texture, uint32_t n, int corners,
-                        struct texel_corners *c)
+static void load_pairs(const struct image *image, const int32_t *at, uint32_t n, uint64_t wraps,
+                       int64_t *pair)
+{
+    for (uint32_t i = 0; i < n; i++)
+        pair[i] = image_texels8(image, (size_t)at[i]);
+    for (; wraps; wraps &= wraps - 1) {
+        int i = __builtin_ctzll(wraps);
+        int64_t first = image_texels8(image, (size_t)at[i] + 1 - image->width);
+        pair[i] = (pair[i] & 0xffffff) | first << 24;
+    }
+}
+
+static void load_texels16(const struct texture *texture, const int32_t *at, uint32_t n,
+                          uint64_t wraps, struct vec3_batch pair[2])
 {
     const struct image *image = texture->image;
     const double *light = texture->decode;
-    for (int k = 0; k < corners; k++) {
-        for (uint32_t i = 0; i < n && image->data8; i++)
-            c->texel8[k][i] = image_texel8(image, (size_t)c->at[k][i]);
-        for (uint32_t i = 0; i < n && image->data16; i++) {
-            const uint16_t *p = image->data16 + 3 * (size_t)c->at[k][i];
-            vec3_put(&c->texel16[k], i,
+    for (uint32_t i = 0; i < n; i++) {
+        size_t left = (size_t)at[i], right = left + 1 - (wraps >> i & 1 ? image->width : 0);
+        for (int k = 0; k < 1 + texture->linear; k++) {
+            const uint16_t *p = image->data16 + 3 * (k ? right : left);
+            vec3_put(&pair[k], i,
                      light ? vec3(light[p[0]], light[p[1]], light[p[2]]) : vec3(p[0], p[1], p[2]));
         }
     }
 }
 
+/* Of whole vectors; without a filter only the left ones below are used. */
+static void load_texels(const struct texture *texture, uint32_t n, struct texel_corners *c)
+{
+    for (int row = 0; row < 1 + texture->linear; row++) {
+        if (texture->image->data8)
+            load_pairs(texture->image, c->at[row], n, c->wraps, c->pair8[row]);
+        else
+            load_texels16(texture, c->at[row], n, c->wraps, c->texel16[row]);
+    }
+}
+
 static inline struct vvec3 corner(const struct texture *texture, const struct texel_corners *c,
-                                  int k, uint32_t i)
+                                  int row, int right, uint32_t i)
 {
     const double *light = texture->decode;
     if (texture->image->data16)
-        return v3_load(&c->texel16[k], i);
-    vint32 texel = v_load_int32(c->texel8[k] + i);
+        return v3_load(&c->texel16[row][right], i);
+    vint texel = v_load_int(c->pair8[row] + i) >> (right ? 24 : 0);
+    vint x = texel & 255, y = texel >> 8 & 255, z = texel >> 16 & 255;
     if (light)
-        return (struct vvec3){v_gather(light, v_long(texel & 255)),
-                              v_gather(light, v_long(texel >> 8 & 255)),
-                              v_gather(light, v_long(texel >> 16 & 255))};
-    return (struct vvec3){v_real(texel & 255), v_real(texel >> 8 & 255), v_real(texel >> 16 & 255)};
+        return (struct vvec3){v_gather(light, x), v_gather(light, y), v_gather(light, z)};
+    return (struct vvec3){v_real_of_long(x), v_real_of_long(y), v_real_of_long(z)};
 }
 
 static inline struct vvec3 v3_mix(struct vvec3 a, struct vvec3 b, vreal share_of_b)
@@ -149,6 +171,7 @@ static uint64_t place_corners(const struct texture *texture, const double *u, co
     double width = image->width, height = image->height;
     vreal zero = v_all(0);
     uint64_t strange = 0;
+    c->wraps = 0;
     for (uint32_t i = 0; i < n; i += LANES) {
         vmask none = v_less(zero, zero);
         struct texel_places x = places_on(texture, v_load(u + i), width, &none);
@@ -156,42 +179,42 @@ static uint64_t place_corners(const struct texture *texture, const double *u, co
         strange |= (uint64_t)v_bits(none) << i;
         x.at = v_select(none, zero, x.at);
         y.at = v_select(none, zero, y.at);
-        vreal right = v_select(v_less(x.at + 1, v_all(width)), x.at + 1, zero);
+        v_store_int32(c->at[0] + i, v_int32((height - 1 - y.at) * width + x.at));
+        if (!texture->linear)
+            continue;
         vreal above = v_select(v_less(y.at + 1, v_all(height)), y.at + 1, zero);
-        vreal low = (height - 1 - y.at) * width, high = (height - 1 - above) * width;
-        v_store_int32(c->at[0] + i, v_int32(low + x.at));
-        v_store_int32(c->at[1] + i, v_int32(low + right));
-        v_store_int32(c->at[2] + i, v_int32(high + x.at));
-        v_store_int32(c->at[3] + i, v_int32(high + right));
+        v_store_int32(c->at[1] + i, v_int32((height - 1 - above) * width + x.at));
+        c->wraps |= (uint64_t)v_bits(v_at_most(v_all(width), x.at + 1)) << i;
         v_store(c->across + i, x.rest);
         v_store(c->upwards + i, y.rest);
     }
     return n < BATCH ? strange & ((UINT64_C(1) << n) - 1) : strange;
 }
 
-static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
-                   struct vec3_batch *out)
+static void texels(const struct texture *texture, const double *u, const double *v, uint32_t first,
+                   uint32_t end, struct vec3_batch *out)
 {
     const struct image *image = texture->image;
     double full = image->data8 ? 255 : 65535;
+    uint32_t n = end - first;
     struct texel_corners c;
-    uint64_t strange = place_corners(texture, u, v, n, &c);
-    load_texels(texture, (n + LANES - 1) / LANES * LANES, texture->linear ? 4 : 1, &c);
+    uint64_t strange = place_corners(texture, u + first, v + first, n, &c);
+    load_texels(texture, (n + LANES - 1) / LANES * LANES, &c);
     for (uint32_t i = 0; i < n; i += LANES) {
-        struct vvec3 t = corner(texture, &c, 0, i);
+        struct vvec3 t = corner(texture, &c, 0, 0, i);
         if (texture->linear) {
             vreal x = v_load(c.across + i);
-            t = v3_mix(v3_mix(t, corner(texture, &c, 1, i), x),
-                       v3_mix(corner(texture, &c, 2, i), corner(texture, &c, 3, i), x),
-                       v_load(c.upwards + i));
+            struct vvec3 low = v3_mix(t, corner(texture, &c, 0, 1, i), x);
+            struct vvec3 left = corner(texture, &c, 1, 0, i), right = corner(texture, &c, 1, 1, i);
+            t = v3_mix(low, v3_mix(left, right, x), v_load(c.upwards + i));
         }
         if (!texture->decode)
             t = (struct vvec3){v_quotient(t.x, full, 1 / full), v_quotient(t.y, full, 1 / full),
                                v_quotient(t.z, full, 1 / full)};
-        v3_store(out, i, t);
+        v3_store(out, first + i, t);
     }
     for (; strange; strange &= strange - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(strange);
+        uint32_t k = first + (uint32_t)__builtin_ctzll(strange);
         vec3_put(out, k, texture_fetch(texture, u[k], v[k]));
     }
 }

@@ -60,10 +60,10 @@ static void spheres_uv(const struct sphere *sphere, const struct vec3_batch *poi
     }
 }
 
-static void texels(const struct texture *texture, const double *u, const double *v, uint32_t n,
-                   struct vec3_batch *texels)
+static void texels(const struct texture *texture, const double *u, const double *v, uint32_t first,
+                   uint32_t end, struct vec3_batch *texels)
 {
-    for (uint32_t i = 0; i < n; i++)
+    for (uint32_t i = first; i < end; i++)
         vec3_put(texels, i, texture_fetch(texture, u[i], v[i]));
 }
 

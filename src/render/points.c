@@ -270,18 +270,24 @@ static void find_uv(const struct worker *w, uint32_t first, uint32_t end,
     }
 }
 
+static void map_coordinates(double *restrict to, const double *restrict from, uint32_t n,
+                            double scale, double offset)
+{
+    for (uint32_t i = 0; i < n; i++)
+        to[i] = from[i] * scale + offset;
+}
+
 /* Adds points first to end, whose coordinates are u and v, where `map` puts them. */
 static void add_textured(struct textured *t, uint32_t first, uint32_t end, uint32_t texture,
                          const struct uv_map *map, const double *u, const double *v)
 {
-    uint32_t n = end - first;
-    for (uint32_t i = 0; i < n; i++) {
-        t->point[t->n + i] = first + i;
-        t->texture[t->n + i] = texture;
-        t->u[t->n + i] = u[i] * map->scale.x + map->offset.x;
-        t->v[t->n + i] = v[i] * map->scale.y + map->offset.y;
-    }
-    t->n += n;
+    struct texture_run *last = t->runs ? &t->run[t->runs - 1] : NULL;
+    map_coordinates(t->u + first, u, end - first, map->scale.x, map->offset.x);
+    map_coordinates(t->v + first, v, end - first, map->scale.y, map->offset.y);
+    if (last && last->texture == texture && last->end == first)
+        last->end = end;
+    else
+        t->run[t->runs++] = (struct texture_run){first, end, texture};
 }
 
 /* Points first to end lie on one surface. */
@@ -300,66 +306,29 @@ static void note_textures(struct worker *w, uint32_t first, uint32_t end,
     if (surface->normal_map != TEXTURE_NONE) {
         add_textured(bumps, first, end, surface->normal_map, &surface->uv, u, v);
         if (!w->tracer->modern) { /* the original's material starts from the mapped ones */
-            u = bumps->u + bumps->n - (end - first);
-            v = bumps->v + bumps->n - (end - first);
+            u = bumps->u + first;
+            v = bumps->v + first;
         }
     }
     if (m->texture != TEXTURE_NONE)
         add_textured(&w->paints, first, end, m->texture, &m->uv, u, v);
 }
 
-/* The texels of one texture's points; out by point.  Takes these out of `todo`, a bit for each. */
-static uint64_t fetch_of_one(const struct worker *w, const struct textured *t, uint64_t todo,
-                             struct vec3_batch *out)
-{
-    const struct tracer *tracer = w->tracer;
-    uint32_t texture = t->texture[__builtin_ctzll(todo)], which[BATCH], n = 0;
-    double u[BATCH_ROOM], v[BATCH_ROOM];
-    struct vec3_batch texels;
-    for (uint32_t i = 0; i < t->n; i++) {
-        if (t->texture[i] != texture)
-            continue;
-        todo &= ~(UINT64_C(1) << i);
-        u[n] = t->u[i];
-        v[n] = t->v[i];
-        which[n++] = t->point[i];
-    }
-    fill_rest(u, n, 0);
-    fill_rest(v, n, 0);
-    tracer->kernels->texels(&tracer->scene->textures.at[texture], u, v, n, &texels);
-    for (uint32_t i = 0; i < n; i++)
-        vec3_put(out, which[i], vec3_get(&texels, i));
-    return todo;
-}
-
-/* All points, then in their order, take theirs from one texture. */
-static bool is_whole(const struct worker *w, const struct textured *t)
-{
-    uint32_t differing = 0;
-    for (uint32_t i = 1; i < t->n; i++)
-        differing |= t->texture[i] ^ t->texture[0];
-    return t->n == w->points.n && differing == 0;
-}
-
+/* What a run's last vector puts behind its end, the next run overwrites. */
 static void fetch_texels(const struct worker *w, const struct textured *t, struct vec3_batch *out)
 {
-    uint64_t todo = UINT64_MAX >> (BATCH - t->n);
-    if (is_whole(w, t)) {
-        w->tracer->kernels->texels(&w->tracer->scene->textures.at[t->texture[0]], t->u, t->v, t->n,
-                                   out);
-        return;
-    }
-    while (todo)
-        todo = fetch_of_one(w, t, todo, out);
+    for (const struct texture_run *run = t->run; run < t->run + t->runs; run++)
+        w->tracer->kernels->texels(&w->tracer->scene->textures.at[run->texture], t->u, t->v,
+                                   run->first, run->end, out);
 }
 
 /* Modern: the texels are normals in the surface's own frame. */
-static void turn_normals(struct worker *w, const struct vec3_batch *texels)
+static void turn_normals(struct worker *w, const struct texture_run *run,
+                         const struct vec3_batch *texels)
 {
     struct shade_batch *points = &w->points;
     const struct scene *scene = w->tracer->scene;
-    for (uint32_t i = 0; i < w->bumps.n; i++) {
-        uint32_t k = w->bumps.point[i];
+    for (uint32_t k = run->first; k < run->end; k++) {
         const struct surface *surface = &scene->surfaces.at[points->surface[k]];
         struct hit hit = hit_of_point(w, k);
         struct vec3 texel = vec3_get(texels, k), n = vec3_get(&points->normal, k), x, y;
@@ -373,41 +342,55 @@ static void turn_normals(struct worker *w, const struct vec3_batch *texels)
 
 static void bend_normals(struct worker *w)
 {
+    const struct texture_run *end = w->bumps.run + w->bumps.runs;
     struct vec3_batch texels;
     double bent[BATCH_ROOM] = {0};
     fetch_texels(w, &w->bumps, &texels);
-    if (w->tracer->modern) {
-        turn_normals(w, &texels);
-        return;
+    for (const struct texture_run *run = w->bumps.run; run < end; run++) {
+        if (w->tracer->modern)
+            turn_normals(w, run, &texels);
+        else
+            fill(bent, run->first, run->end, 1);
     }
-    for (uint32_t i = 0; i < w->bumps.n; i++)
-        bent[w->bumps.point[i]] = 1;
-    w->tracer->kernels->bend(&texels, bent, &w->points);
+    if (!w->tracer->modern)
+        w->tracer->kernels->bend(&texels, bent, &w->points);
+}
+
+static void multiply(double *restrict to, const double *restrict by, const struct texture_run *run)
+{
+    for (uint32_t k = run->first; k < run->end; k++)
+        to[k] *= by[k];
 }
 
 static void paint(struct worker *w)
 {
+    struct vec3_batch *diffuse = &w->points.diffuse;
+    const struct texture_run *end = w->paints.run + w->paints.runs;
     struct vec3_batch texels;
     fetch_texels(w, &w->paints, &texels);
-    w->points.filled_with = NULL;
-    for (uint32_t i = 0; i < w->paints.n; i++) {
-        uint32_t k = w->paints.point[i];
-        vec3_put(&w->points.diffuse, k,
-                 vec3_mul(vec3_get(&texels, k), vec3_get(&w->points.diffuse, k)));
+    w->points.painted = true;
+    for (const struct texture_run *run = w->paints.run; run < end; run++) {
+        multiply(diffuse->x, texels.x, run);
+        multiply(diffuse->y, texels.y, run);
+        multiply(diffuse->z, texels.z, run);
     }
 }
 
-/* Once more for all points, most often. */
+/* Once more for all points, most often; what textures coloured is plain again. */
 static void fill_finish(const struct tracer *t, struct shade_batch *points, uint32_t first,
                         uint32_t end, const struct finish *finish)
 {
-    if (first == 0 && points->filled_with == finish && points->filled >= end)
+    bool filled = first == 0 && points->filled_with == finish && points->filled >= end;
+    if (!filled || points->painted)
+        t->kernels->fill(&points->diffuse, first, filled ? points->filled : end,
+                         finish->material->diffuse);
+    points->painted = false;
+    if (filled)
         return;
     for (uint32_t k = first; k < end; k++)
         points->finish[k] = finish;
     for (uint32_t k = first; k < end; k++)
         points->power[k] = finish->power;
-    t->kernels->fill(&points->diffuse, first, end, finish->material->diffuse);
     t->kernels->fill(&points->specular, first, end, finish->specular);
     points->filled_with = first == 0 ? finish : NULL;
     points->filled = end;
@@ -431,18 +414,18 @@ static void finish_run(struct worker *w, uint32_t first, uint32_t end)
 static void finish_points(struct worker *w)
 {
     struct shade_batch *points = &w->points;
-    w->bumps.n = w->paints.n = 0;
+    w->bumps.runs = w->paints.runs = 0;
     points->any_uneven = points->any_glowing = points->any_bounces = false;
     for (uint32_t first = 0, end; first < points->n; first = end) {
         end = end_of_surface(points, first);
         finish_run(w, first, end);
     }
-    points->plain = points->one_surface && w->paints.n == 0;
+    points->plain = points->one_surface && w->paints.runs == 0;
     if (points->curved)
         vec3_copy(&points->smooth, points->n, &points->normal);
-    if (w->bumps.n > 0)
+    if (w->bumps.runs > 0)
         bend_normals(w);
-    if (w->paints.n > 0)
+    if (w->paints.runs > 0)
         paint(w);
     w->tracer->kernels->face(points);
 }

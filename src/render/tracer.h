@@ -153,6 +153,7 @@ struct shade_batch {
     /* What `finish`, `power`, `diffuse` and `specular` of so many points are still filled with. */
     const struct finish *filled_with;
     uint32_t filled;
+    bool painted; /* but for `diffuse`, which textures have changed */
     bool any_uneven;  /* some highlight is not multiplied out, some metal is textured */
     bool any_glowing; /* some is emissive */
     bool any_bounces;
@@ -199,12 +200,17 @@ struct light_batch {
     struct vec3_batch intensity; /* where it bounces: sum over all lights, shadowed or not */
 };
 
-/* Points that take their colour or normal from textures. */
+/* Neighbouring points that take their colour or normal from one texture. */
+struct texture_run {
+    uint32_t first, end;
+    uint32_t texture;
+};
+
+/* All that do, in order. */
 struct textured {
-    uint32_t n;
-    uint32_t point[BATCH];   /* which */
-    uint32_t texture[BATCH]; /* whose */
-    double u[BATCH_ROOM], v[BATCH_ROOM];
+    uint32_t runs;
+    struct texture_run run[BATCH];
+    double u[BATCH_ROOM], v[BATCH_ROOM]; /* by point */
 };
 
 /* What points lie on, by kind: from first[kind] to first[kind + 1]. */
@@ -260,9 +266,9 @@ struct render_kernels {
      * v[0] are the first's. */
     void (*sphere_uv)(const struct sphere *sphere, const struct vec3_batch *points, uint32_t first,
                       uint32_t end, double *u, double *v);
-    /* The texture at n <= BATCH places. */
-    void (*texels)(const struct texture *texture, const double *u, const double *v, uint32_t n,
-                   struct vec3_batch *texels);
+    /* The texture at places first to end, and anything up to the next whole vector. */
+    void (*texels)(const struct texture *texture, const double *u, const double *v, uint32_t first,
+                   uint32_t end, struct vec3_batch *texels);
     /* Bends the normals by the texels of normal maps, as the original does: in world coordinates.
      * Points without a normal map have bent[i] = 0. */
     void (*bend)(const struct vec3_batch *texels, const double *bent, struct shade_batch *points);
