@@ -68,7 +68,7 @@ struct options {
     size_t max_objects;
     uint64_t max_memory; /* bytes; 0: no limit */
     uint32_t max_pixels, max_depth;
-    uint64_t max_rays; /* for a pixel */
+    uint64_t max_rays;              /* for a pixel */
     const char *restricted;         /* the folder that files are read from, or NULL */
     const struct file_fence *fence; /* around it, or NULL */
     enum render_show show;
