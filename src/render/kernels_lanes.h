@@ -115,7 +115,7 @@ static void load_pairs(const struct image *image, const int32_t *at, uint32_t n,
     for (; wraps; wraps &= wraps - 1) {
         int i = __builtin_ctzll(wraps);
         int64_t first = image_texels8(image, (size_t)at[i] + 1 - image->width);
-        pair[i] = (pair[i] & 0xffffff) | first << 24;
+        pair[i] = (pair[i] & 0xffffff) | (first & 0xffffff) << 24;
     }
 }
 
