@@ -110,9 +110,12 @@ static void list_targets(struct accel *a, const bool *spare)
 {
     uint32_t n = (uint32_t)a->geometry->prims.n;
     a->targets = mem_alloc(n, sizeof *a->targets);
-    for (uint32_t i = 0; i < n; i++)
-        if (!spare || !spare[i])
-            a->targets[a->target_count++] = target_of(a->geometry, i);
+    for (uint32_t i = 0; i < n; i++) {
+        if (spare && spare[i])
+            continue;
+        a->targets[a->target_count++] = target_of(a->geometry, i);
+        a->has[a->geometry->prims.at[i].kind] = true;
+    }
 }
 
 static double reach_of_targets(const struct accel *a)
@@ -125,11 +128,17 @@ static double reach_of_targets(const struct accel *a)
     return reach;
 }
 
+struct accel accel_outline(const struct geometry *geometry, double reach)
+{
+    return (struct accel){.geometry = geometry,
+                          .reach = reach,
+                          .padding = BOX_PADDING * (1 + geometry->worst_growth)};
+}
+
 static void build(struct accel *a, const struct geometry *geometry,
                   const struct accel_options *options)
 {
-    *a =
-        (struct accel){.geometry = geometry, .padding = BOX_PADDING * (1 + geometry->worst_growth)};
+    *a = accel_outline(geometry, 0);
     list_targets(a, options->spare);
     if (!options->brute_force && a->target_count >= TREE_LEAST)
         build_tree(a, options);

@@ -22,6 +22,7 @@ struct accel {
     const struct geometry *geometry; /* borrowed */
     struct target *targets;          /* all primitives, leaf by leaf */
     uint32_t target_count;           /* pieces of one triangle count by themselves */
+    bool has[PRIM_KINDS];            /* which kinds are among them */
     uint32_t pieces;                 /* more of them than there are primitives */
     struct bvh_node *nodes;          /* root first, or NULL */
     uint32_t node_count;
@@ -53,6 +54,9 @@ void accel_build_with(struct accel *a, const struct geometry *geometry,
 /* By plain code and one thread. */
 void accel_build(struct accel *a, const struct geometry *geometry, bool brute_force);
 void accel_free(struct accel *a);
+
+/* What shafts need of one that is not built yet; reach: the largest |coordinate| of its boxes. */
+struct accel accel_outline(const struct geometry *geometry, double reach);
 
 /* What made all its trees better. */
 struct accel_efforts {

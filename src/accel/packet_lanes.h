@@ -416,9 +416,8 @@ static bool trace_packet(const struct accel *a, struct frame_batch *frames, bool
 static bool packet_in_wide(const struct accel *a, const struct ray_batch *rays, bool any,
                            struct hit_batch *hits)
 {
-    const struct geometry *g = a->geometry;
     struct frame_batch frames;
-    frames_init(&frames, g, rays, g->spheres.n > 0, true, hits);
+    frames_init(&frames, a->geometry, rays, a->has[PRIM_SPHERE], true, hits);
     return trace_packet(a, &frames, any);
 }
 

@@ -107,7 +107,7 @@ static bool crosses_plane(const struct accel *a, const struct shaft *s, uint32_t
     return !(s->spawned && start[1] - at <= rounding && start[0] - at >= -rounding);
 }
 
-static bool touches(const struct shaft *s, struct box b)
+bool shaft_touches_box(const struct shaft *s, struct box b)
 {
     double lo[3] = {b.lo.x, b.lo.y, b.lo.z}, hi[3] = {b.hi.x, b.hi.y, b.hi.z};
     return touches_box(s, lo, hi);
@@ -123,8 +123,8 @@ static bool touches_cylinder(const struct shaft *s, const struct cylinder *c)
     disc = vec3_scale(disc, c->radius);
     for (int i = 0; i < SLICES; i++) {
         struct vec3 to = vec3_add(from, slice);
-        if (touches(s, (struct box){vec3_sub(vec3_min(from, to), disc),
-                                    vec3_add(vec3_max(from, to), disc)}))
+        if (shaft_touches_box(s, (struct box){vec3_sub(vec3_min(from, to), disc),
+                                              vec3_add(vec3_max(from, to), disc)}))
             return true;
         from = to;
     }
@@ -135,7 +135,7 @@ bool shaft_touches(const struct accel *a, const struct shaft *s, struct target t
 {
     if (target.kind == PRIM_TRIANGLE && target.prim == s->from)
         return false;
-    if (!touches(s, target_bounds(a->geometry, target)))
+    if (!shaft_touches_box(s, target_bounds(a->geometry, target)))
         return false;
     if (target.kind == PRIM_CYLINDER)
         return touches_cylinder(s, &a->geometry->cylinders.at[target.index]);

@@ -25,6 +25,9 @@ struct shaft shaft_of_rays(const struct accel *a, struct box origins, struct box
 /* The spawned rays p + t (q - p), 0 <= t <= t_max, t_max >= 1, for all p and q of the boxes. */
 struct shaft shaft_between(const struct accel *a, struct box p, struct box q, double t_max);
 
+/* Whether a ray of the bundle may hit something in the box. */
+bool shaft_touches_box(const struct shaft *s, struct box b);
+
 /* Whether a ray of the bundle may hit this one primitive. */
 bool shaft_touches(const struct accel *a, const struct shaft *s, struct target target);
 

@@ -162,7 +162,7 @@ bool accel_closest(const struct accel *a, const struct ray *ray, struct hit *hit
     if (!ray_has_direction(ray))
         return false;
     struct ray_frame frame;
-    ray_frame_init(&frame, ray, a->geometry->spheres.n > 0, a->geometry->triangles.n > 0);
+    ray_frame_init(&frame, ray, a->has[PRIM_SPHERE], a->has[PRIM_TRIANGLE]);
     return find(a, ray, &frame, false, hit);
 }
 
@@ -173,6 +173,6 @@ bool accel_any(const struct accel *a, const struct ray *ray)
     struct hit hit;
     struct ray_frame frame;
     hit_clear(&hit, ray->t_max);
-    ray_frame_init(&frame, ray, a->geometry->spheres.n > 0, a->geometry->triangles.n > 0);
+    ray_frame_init(&frame, ray, a->has[PRIM_SPHERE], a->has[PRIM_TRIANGLE]);
     return find(a, ray, &frame, true, &hit);
 }

@@ -119,19 +119,17 @@ static double longest_shadow_ray(const struct lamp *lamp, struct box from)
     return vec3_length(d) / box_gap(from, lamp->box) * (1 + 0x1p-30);
 }
 
-/* The shaft of all shadow rays from the box to the lamp; false when there is none to speak of: the
- * points are close by, or among the samples. */
-static bool shaft_to_lamp(const struct tracer *t, const struct lamp *lamp, struct box from,
-                          struct shaft *shaft)
+bool shaft_to_lamp(const struct accel *a, const struct lamp *lamp, struct box from,
+                   struct shaft *shaft)
 {
     if (lamp->light->kind == LIGHT_SUN) {
-        *shaft = shaft_of_rays(&t->accel, from, lamp->box);
+        *shaft = shaft_of_rays(a, from, lamp->box);
         return true;
     }
     double t_max = longest_shadow_ray(lamp, from);
     if (!(t_max <= 4))
         return false;
-    *shaft = shaft_between(&t->accel, from, lamp->box, t_max > 1 ? t_max : 1);
+    *shaft = shaft_between(a, from, lamp->box, t_max > 1 ? t_max : 1);
     return true;
 }
 
@@ -140,7 +138,7 @@ void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box 
 {
     struct shaft shaft;
     list->usable = false;
-    if (shaft_to_lamp(t, lamp, from, &shaft))
+    if (shaft_to_lamp(&t->accel, lamp, from, &shaft))
         shaft_list(&t->accel, &shaft, list);
 }
 

@@ -192,13 +192,15 @@ static void build_accel(struct tracer *t)
                                   .threads = o->threads,
                                   .store = o->store,
                                   .rays = likely_rays(t)};
-    bool *twins =
-        tracer_skips(t, SKIP_TWINS) ? mem_zalloc(t->scene->geometry.prims.n, sizeof *twins) : NULL;
-    t->twins = twins ? find_twins(t, twins) : 0;
-    if (t->twins > 0)
-        build.spare = twins;
+    bool *spare = t->skips ? mem_zalloc(t->scene->geometry.prims.n, sizeof *spare) : NULL;
+    if (tracer_skips(t, SKIP_TWINS))
+        t->twins = find_twins(t, spare);
+    if (tracer_skips(t, SKIP_UNSEEN) && !o->store) /* a store keeps trees for other views */
+        t->unseen = find_unseen(t, spare);
+    if (t->twins > 0 || t->unseen > 0)
+        build.spare = spare;
     accel_build_with(&t->accel, &t->scene->geometry, &build);
-    free(twins);
+    free(spare);
 }
 
 void tracer_init(struct tracer *t, const struct scene *scene, const struct render_options *options)
@@ -299,6 +301,7 @@ void rendering_end(struct rendering *r, struct render_stats *stats)
 {
     *stats = r->stats;
     stats->skipped[SKIP_TWINS] = r->tracer.twins;
+    stats->skipped[SKIP_UNSEEN] = r->tracer.unseen;
     stats->skipped[SKIP_DARK] = r->tracer.dark;
     stats->tree = accel_efforts(&r->tracer.accel);
     if (r->frame)

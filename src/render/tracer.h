@@ -96,7 +96,7 @@ struct tracer {
     bool any_emissive;
     bool any_refractive;
     struct vec3 *most; /* that can come back along a ray, by how much deeper others go; or NULL */
-    uint32_t twins, dark; /* primitives and lights that are left out for that */
+    uint32_t twins, unseen, dark; /* primitives, surfaces and lights that are left out for that */
     uint32_t skips;       /* bit k: skip k is on; 0: nothing clever is done at all */
 };
 
@@ -350,6 +350,11 @@ struct worker {
 /* lamp.c */
 void lamp_init(struct lamp *lamp, const struct light *light, bool brute_force, bool skips);
 void lamp_free(struct lamp *lamp);
+
+/* The shaft of all shadow rays from the box to the lamp; false when there is none to speak of: the
+ * points are close by, or among the samples. */
+bool shaft_to_lamp(const struct accel *a, const struct lamp *lamp, struct box from,
+                   struct shaft *shaft);
 /* What can stand between the box and the lamp. */
 void list_shadowers(const struct tracer *t, const struct lamp *lamp, struct box from,
                     struct target_list *list);
@@ -443,6 +448,9 @@ void worker_free(struct worker *w);
 
 /* spare.c: notes primitives that lie exactly where an earlier one does, and returns how many. */
 uint32_t find_twins(const struct tracer *t, bool *twins);
+
+/* unmet.c: notes the primitives of surfaces that no ray can meet, and returns how many surfaces. */
+uint32_t find_unseen(const struct tracer *t, bool *unseen);
 
 /* prune.c: tracer.most. */
 struct vec3 *most_radiance(const struct tracer *t);
