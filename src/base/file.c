@@ -181,7 +181,7 @@ char *file_nearest(const struct file_fence *fence, const char *path)
             str_nearest_try(&nearest, stem_of(names[i]->d_name));
     if (str_nearest_found(&nearest).n)
         found = join(path, n, nearest.best.at);
-    if (found && !file_readable(fence, found, &reason)) {
+    if (found && (strcmp(found, path) == 0 || !file_readable(fence, found, &reason))) {
         free(found);
         found = NULL;
     }

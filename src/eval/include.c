@@ -75,8 +75,9 @@ static void explain_missing(const struct eval *e, struct diag_entry *entry,
                             const struct ast_node *string, const char *path)
 {
     size_t n = strlen(path), from = n - (string->text.n < n ? string->text.n : n);
-    bool ends = string->text.n > 0 && str_is(string->text, path + from);
     const struct file_fence *fence = e->options->sources->fence;
+    bool ends = string->text.n > 0 && str_is(string->text, path + from) &&
+                !fence_refusal(fence, string->text);
     char *meant = ends ? file_meant(fence, path, from) : NULL;
     char *near = ends && !meant ? file_nearest(fence, path) : NULL;
     if (meant)

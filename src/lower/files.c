@@ -39,7 +39,8 @@ static void explain_missing(struct lowering *l, struct diag_entry *e, const stru
 {
     bool backslash = memchr(file->string.at, '\\', file->string.n);
     size_t n = strlen(path), from = n - (file->string.n < n ? file->string.n : n);
-    bool ends = str_is(file->string, path + from);
+    bool ends =
+        str_is(file->string, path + from) && !fence_refusal(l->sources->fence, file->string);
     char *meant = ends ? file_meant(l->sources->fence, path, from) : NULL;
     char *near = ends && !meant ? file_nearest(l->sources->fence, path) : NULL;
     if (backslash)
