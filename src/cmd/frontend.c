@@ -216,8 +216,9 @@ bool frontend_load_text(struct frontend *f, const char *path, struct str text,
     const struct source *s = add_text(f, path, text);
     if (!s)
         diag_report(&f->diag, DIAG_CANNOT_READ, (struct span){0}, "the result is too large");
-    if (s && syntax_parse(s, &f->ast, &f->diag))
-        evaluate(f, o, true);
+    bool parsed = s && syntax_parse(s, &f->ast, &f->diag);
+    if (may_evaluate(f, parsed))
+        evaluate(f, o, parsed);
     return f->diag.errors == 0;
 }
 
