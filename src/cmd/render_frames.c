@@ -231,6 +231,17 @@ static int render_frame(const struct options *o, const char *pattern, struct fra
     return status;
 }
 
+/* Which one is not there, and that nothing else is lost. */
+static void tell_unfinished(const struct options *o, const struct frames *f)
+{
+    if (o->format != DIAG_FORMAT_TEXT || o->quiet || cluster_rank(f->cluster) != 0)
+        return;
+    fprintf(stderr,
+            "wrt: note: that was frame %" PRIu32 " of %" PRIu32 "..%" PRIu32
+            "; the same command again keeps those that are finished\n",
+            f->frame, o->frames[0], o->frames[1]);
+}
+
 /* Whether -D gives this param. */
 static bool defines(const struct options *o, const char *name)
 {
@@ -266,6 +277,8 @@ int render_frames(const struct options *o, const char *pattern, struct cluster *
         f.frame = (uint32_t)i;
         status = render_frame(o, pattern, &f, files, trees);
         f.said = true;
+        if (status != 0)
+            tell_unfinished(o, &f);
     }
     accel_store_free(trees);
     lower_files_free(files);
