@@ -85,6 +85,19 @@ static void take_label(struct eval *e, struct desc_object *o, const struct ast_n
                     schema_kinds[o->kind].native);
 }
 
+/* A property without its ':' reads like the use of a template. */
+static void report_statement(struct eval *e, enum schema_kind kind, const struct ast_node *m)
+{
+    unsigned component;
+    struct diag_entry *entry =
+        diag_report(e->diag, DIAG_MISPLACED, m->name_span,
+                    "a statement cannot stand in a block of '%s'", schema_kinds[kind].native);
+    if (schema_find_prop(kind, m->name, false, &component) == SCHEMA_PROPS)
+        return;
+    diag_note(entry, "':' stands behind the name of a property");
+    diag_fix(entry, (struct span){m->name_span.end, m->name_span.end}, DIAG_FIX_MAYBE, ":");
+}
+
 struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const struct ast_node *node)
 {
     struct desc_object *o = object_new(e, &e->out->arena, kind, node);
@@ -98,8 +111,7 @@ struct desc_object *eval_block(struct eval *e, enum schema_kind kind, const stru
             o->broken = true; /* what it might have held is not missed */
         damaged = ast_is_damaged(m) || (damaged && m->kind != AST_PROPERTY);
         if (m->kind != AST_PROPERTY && m->kind != AST_LABEL && !damaged)
-            diag_report(e->diag, DIAG_MISPLACED, m->name_span,
-                        "a statement cannot stand in a block of '%s'", schema_kinds[kind].native);
+            report_statement(e, kind, m);
     }
     return o;
 }
