@@ -140,15 +140,16 @@ static void put_count(size_t n, const char *what, const char *behind)
 static void adaptive_text(const struct run_stats *s, const struct options *o)
 {
     const struct adaptive_stats *a = &s->render.adaptive;
-    const char *why =
-        s->late ? ": --time was too short" : ": some pixels took all samples they may";
+    const char *why = s->late
+                          ? ": --time was too short"
+                          : ": some pixels have cells as small, or samples as many, as they may";
     fprintf(stderr, "adaptive   %u sample%s a pixel at most; estimated error ", a->most,
             a->most == 1 ? "" : "s");
     if (error_unknown(s))
         fputs("not known", stderr);
     else
-        fprintf(stderr, "%.2g, %.2g at most", a->error, a->worst);
-    fprintf(stderr, " (%.2g wanted%s)\n", o->adaptive,
+        fprintf(stderr, "%.3g, %.3g at most", a->error, a->worst);
+    fprintf(stderr, " (%.3g wanted%s)\n", o->adaptive,
             a->unfinished > 0 || a->worst > o->adaptive ? why : "");
     if (a->unfinished > 0)
         fprintf(stderr, "unfinished %llu pixels, whose error is not known\n",
