@@ -557,7 +557,7 @@ START_TEST(packets_meet_instances)
         }
     }
     for (int kind = 0; kind < 3; kind++)
-        ck_assert_msg(!tree.wide || met[kind] > TRIES(200), "kind %d: %u", kind, met[kind]);
+        ck_assert_msg(!tree.wide || met[kind] > TRIES(40), "kind %d: %u", kind, met[kind]);
     accel_free(&tree);
     accel_free(&plain);
     geometry_free(&g);
